@@ -243,7 +243,7 @@ pub fn choice<'a, T: Copy + PartialEq>(
     ui.end_row();
 }
 
-/// Draws a number field that parses its text with `read`. Returns the number when it was entered and is valid.
+/// Draws a number field that parses its text with `read`. NaN is shown as “none”. Returns the number when it was entered and is valid.
 /// Arrow keys change it by 1 %, with Shift by 10 %.
 pub fn typed_field(
     ui: &mut Ui,
@@ -254,7 +254,11 @@ pub fn typed_field(
     tooltip: &str,
     read: impl Fn(&str) -> Result<f64, Refusal>,
 ) -> Option<f64> {
-    let shown = if value.is_infinite() { "∞".to_owned() } else { numbers::significant(value) };
+    let shown = match value {
+        value if value.is_infinite() => "∞".to_owned(),
+        value if value.is_nan() => "none".to_owned(),
+        value => numbers::significant(value),
+    };
     let mut text = entries.buffers.get(name).cloned().unwrap_or_else(|| shown.clone());
     let wrong = entries.messages.contains_key(name);
     let mut edit = TextEdit::singleline(&mut text).align(egui::Align2::RIGHT_CENTER);

@@ -137,7 +137,7 @@ impl Explorer {
             Command::Reports(settings) => desk.reports.settings = settings,
             Command::System(system) => {
                 desk.display.system = system;
-                // Texts that are being edited have the former units.
+                // Texts that are being edited have the previous units.
                 desk.entries.clear();
                 units::set_system(ctx, system);
             }

@@ -186,7 +186,7 @@ pub fn install(ctx: &Context) {
             style.spacing.button_padding = egui::vec2(8.0, 3.0);
             style.spacing.slider_width = 150.0;
             style.spacing.interact_size.y = 22.0;
-            style.spacing.tooltip_width = 380.0;
+            style.spacing.tooltip_width = 300.0;
             style.text_styles.insert(TextStyle::Small, FontId::proportional(11.0));
             style.text_styles.insert(TextStyle::Body, FontId::proportional(13.5));
             style.text_styles.insert(TextStyle::Button, FontId::proportional(13.5));

@@ -4,7 +4,6 @@ use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::transient::{Inputs, Signal};
 use crate::solver::limits::digits;
 use crate::solver::parameters::Quantity;
-use crate::solver::physics::engineering::UnitSystem;
 use crate::solver::physics::lubricant::{Cavitation, Lubricant};
 use crate::solver::reduced::transient::TrajectoryModel;
 use crate::solver::reduced::{Domain, ReducedModel, Scheme, Window};
@@ -95,7 +94,7 @@ fn grid_of(window: &Window) -> String {
 /// Describes the varied, limited and fixed quantities of a trained range, and the laws of its lubricant, one per line.
 fn describe_domain(domain: &Domain) -> String {
     let interval = |quantity: Quantity, (low, high): (f64, f64)| {
-        let shown = quantity.kind(domain.contact).unit(UnitSystem::Engineering);
+        let shown = quantity.unit_in_sentences(domain.contact);
         let unit = if shown.name.is_empty() { String::new() } else { format!(" {}", shown.name) };
         let [low, high] = [low, high].map(|value| digits(shown.number(value)));
         let ends = if low == high { low } else { format!("{low}…{high}") };

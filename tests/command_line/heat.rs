@@ -126,7 +126,7 @@ fn thermal_model_reports_its_limits() {
     let cold = json(&program(&[&CONTACT[..], &["--lubricant", "mineral-oil", "--json"], &reduced].concat()));
     assert!(cold["warning"].as_str().unwrap().contains("trained for thermal contacts"));
     let info = String::from_utf8(program(&["info", &rom]).stdout).unwrap();
-    assert!(info.contains("varies: M 18…26, L 9…11, SRR 0…0.5\n") && info.contains("fixes: R 10 mm, "), "{info}");
+    assert!(info.contains("varies: M 18…26, L 9…11, SRR 0…50 %\n") && info.contains("fixes: R 10 mm, "), "{info}");
 }
 
 #[test]

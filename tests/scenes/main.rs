@@ -6,6 +6,7 @@
 mod common;
 
 mod cancel;
+mod fit;
 mod passing;
 mod plans;
 mod points;

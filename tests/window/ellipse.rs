@@ -143,7 +143,7 @@ fn tables_have_both_semi_axes_and_formulas_say_where_they_end() {
 #[test]
 fn traction_is_drawn_against_the_ratio_of_radii() {
     let mut harness = ellipse();
-    set(&mut harness, Role::Slider, "Slide-to-roll ratio SRR", 0.1);
+    set(&mut harness, Role::Slider, "Slide-to-roll ratio SRR", 10.0);
     click(&mut harness, "Traction");
     choose(&mut harness, "Against", "ratio of radii");
     wait(&mut harness, "full solutions", |app| app.traction_contacts().1 == 11 && !app.solving_along());

@@ -71,11 +71,11 @@ fn every_tab_has_its_export_at_the_same_place() {
     let mut places = Vec::new();
     for tab in TABS {
         click(&mut harness, tab);
-        let names = [format!("Export from {tab}"), format!("Lock the axes of {tab}"), "SI".to_owned()];
+        let names = [format!("Export from {tab}"), format!("Lock the axes of {tab}"), "Units".to_owned()];
         places.push(names.map(|name| harness.get_by_label(&name).rect()));
         let switches = ["Profiles", "Contact map", "Reduced basis", "Transient", "TPWL"].contains(&tab);
         assert_eq!(
-            !harness.get_by_label("SI").accesskit_node().is_disabled(),
+            !harness.get_by_label("Units").accesskit_node().is_disabled(),
             switches,
             "{tab}: it has units or has none"
         );
@@ -225,8 +225,8 @@ fn a_report_leaves_with_the_numbers_of_a_headless_solve() {
     let outcome = run_scene(&scene, &mut Workbench::new(""), &()).unwrap();
     let headless = outcome.found.values.iter().find(|value| value.name == "h_c_m").unwrap().value;
     let page = std::fs::read_to_string(folder.join("report.html")).unwrap();
-    let film = format!("{:.1}", 1e9 * headless);
-    assert!(page.contains(&format!("{} nm", film.trim_end_matches(".0"))), "{headless}");
+    let film = format!("{:.4}", 1e6 * headless);
+    assert!(page.contains(&format!("{} µm", film.trim_end_matches('0'))), "{headless}");
     for part in ["Full solution", "Reduced model", "reduced against full", "Stress below the surface of body 1"] {
         assert!(page.contains(part), "{part}");
     }

@@ -101,7 +101,7 @@ fn a_ball_with_heat_has_a_map_of_its_temperatures() {
     click(&mut harness, "Contact map");
     assert!(harness.query_by_label("Temperature map").is_none(), "there is none without heat");
     let cold = harness.state().central_film().expect("a picture");
-    set(&mut harness, Role::Slider, "Slide-to-roll ratio SRR", 0.3);
+    set(&mut harness, Role::Slider, "Slide-to-roll ratio SRR", 30.0);
     click(&mut harness, "Heat");
     // The thermal model of circular contacts is read, used, and checked against a full solution.
     let warm = |app: &Explorer| app.central_film().is_some_and(|film| film < 0.999 * cold);

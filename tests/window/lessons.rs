@@ -72,7 +72,8 @@ fn carry_out(harness: &mut Window, goal: &str) {
                 _ => "Newtonian plateau ratio NPR",
             };
             let middle = 0.5 * (from.parse::<f64>().unwrap() + to.parse::<f64>().unwrap());
-            set(harness, Role::Slider, name, middle);
+            // The slider is in percent.
+            set(harness, Role::Slider, name, if quantity == "SRR" { 100.0 * middle } else { middle });
         }
         _ => panic!("the test does not know how to do “{goal}”"),
     }

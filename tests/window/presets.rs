@@ -150,11 +150,11 @@ fn lesson_in_a_presentation_locks_the_axes() {
 }
 
 #[test]
-fn an_engineer_has_si_units() {
+fn an_engineer_has_axes_with_units() {
     let mut harness = window(Explorer::with_embedded_models().without_system_dialogs(), [1280.0, 800.0]);
     click(&mut harness, "View");
     click(&mut harness, "Layout: Engineer");
-    let switches = harness.query_all_by_label("SI").map(|node| node.accesskit_node().toggled());
+    let switches = harness.query_all_by_label("Units").map(|node| node.accesskit_node().toggled());
     let on: Vec<_> = switches.collect();
     assert!(on.contains(&Some(egui::accesskit::Toggled::True)), "{on:?}");
 }

@@ -236,7 +236,7 @@ fn study_of_several_inputs_opens_and_is_saved() {
     let trainings = study.trainings.len() * study.training_loads.len();
     click(&mut harness, "Model set-up");
     assert!(trainings > study.trainings.len() && shows(&harness, &format!("Trained on {trainings} other inputs")));
-    assert!(shows(&harness, "At reference loads of 400 kN/m, 600 kN/m"));
+    assert!(shows(&harness, "At reference loads of 400.0\u{2009}N/mm, 600.0\u{2009}N/mm"));
     let modes = harness.get_by_role_and_label(Role::SpinButton, "Modes");
     assert_eq!(modes.value().unwrap(), study.linearised.as_ref().unwrap().modes.to_string());
     modes.set_value_accesskit(80.0);

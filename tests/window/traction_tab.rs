@@ -58,7 +58,7 @@ fn four_sliders_are_live_with_shear_thinning() {
     assert_eq!(harness.state().sliding(), (0.0, 0.2227));
     assert_eq!(harness.state().traction(), Some(0.0));
     let at_rest = film(&harness);
-    slide(&mut harness, "Slide-to-roll ratio SRR", 0.5);
+    slide(&mut harness, "Slide-to-roll ratio SRR", 50.0);
     let slid = film(&harness);
     // Fig. 3.14: µ 0.0321 at 0.74 m/s; the model has another grid.
     let traction = harness.state().traction().unwrap();
@@ -72,9 +72,9 @@ fn four_sliders_are_live_with_shear_thinning() {
     wait(&mut harness, "verification", |app| app.badge() == "Verified");
     assert!(harness.state().badge_detail().contains("Δ{µ}"), "{}", harness.state().badge_detail());
     // Outside the trained range the full solver is used.
-    slide(&mut harness, "Slide-to-roll ratio SRR", 1.5);
+    slide(&mut harness, "Slide-to-roll ratio SRR", 150.0);
     wait(&mut harness, "the full solver", |app| app.badge() == "Outside the trained range" && !app.busy());
-    assert!(harness.state().badge_detail().contains("SRR = 1.5"), "{}", harness.state().badge_detail());
+    assert!(harness.state().badge_detail().contains("SRR = 150 %"), "{}", harness.state().badge_detail());
     for _ in 0..5 {
         undo(&mut harness);
     }
@@ -90,7 +90,7 @@ fn newtonian_sliding_keeps_npr_and_film() {
     assert!(npr.accesskit_node().is_disabled());
     assert!(npr.accesskit_node().description().unwrap().contains("no shear constants"));
     let before = film(&harness);
-    slide(&mut harness, "Slide-to-roll ratio SRR", 0.3);
+    slide(&mut harness, "Slide-to-roll ratio SRR", 30.0);
     // Neither the film thickness nor its error changes: no other solve is needed.
     assert_eq!(film(&harness), before);
     assert_eq!(harness.state().badge(), "Verified");
@@ -158,7 +158,7 @@ fn bad_constants_of_a_lubricant_are_refused() {
         ("Bulk modulus K_0", "abc", "is no number"),
         ("NPR value", "1.2", "Newtonian plateau ratio is 1.2"),
         ("NPR value", "-0.1", "Newtonian plateau ratio is -0.1"),
-        ("SRR value", "1e9", "slide-to-roll ratio is 1000000000"),
+        ("SRR value", "1e9", "slide-to-roll ratio is 10000000"),
     ] {
         enter(&mut harness, field, bad);
         assert!(shows(&harness, said), "no message about {field} {bad}");

@@ -16,7 +16,7 @@ const SLIDERS: [(&str, f64, f64); 5] = [
     ("Load number M", 3.0, 400.0),
     ("Lubricant number L", 2.0, 18.0),
     ("Ratio of radii R_y/R", 0.1, 40.0),
-    ("Slide-to-roll ratio SRR", 1e-3, 1.5),
+    ("Slide-to-roll ratio SRR", 0.1, 150.0),
     ("Newtonian plateau ratio NPR", 0.1, 1.0),
 ];
 /// Controls that can be clicked in any tab.

@@ -172,3 +172,21 @@ def test_bodies_heat_shear_inlet_film_and_grid_are_the_same_in_tables_keywords_a
             for name in ["H_c", "H_min", "h_c_m", "traction"]:
                 (column,) = [column for title, column in expected.items() if title.endswith(f".{name}")]
                 assert result[name] == column[0], name
+
+
+FZG = (
+    "Gear(teeth: (16, 24), module_m: 0.0045, shifts: (0.1817, 0.1715), face_width_m: 0.014, pinion_rpm: 1500, "
+    "torque_n_m: 200)"
+)
+
+
+def test_a_machine_states_the_contact_as_the_flag_does(solve_json):
+    steel = dict(e1=206e9, nu1=0.3, e2=206e9, nu2=0.3, viscosity=0.02, alpha=2e-8, dx=0.02)
+    gear = ehl.solve(ehl.Contact(machine=FZG, **steel))
+    # Published for the FZG type C gear at the pitch point.
+    assert abs(gear["hertz.p_h_pa"] / 1347.3e6 - 1) < 2e-4
+    assert abs(gear["hertz.a_m"] / 199.57e-6 - 1) < 2e-4
+    flags = solve_json(f"--machine={FZG}", *(f"--{name}={value!r}" for name, value in steel.items()))
+    assert without_clock(gear.to_dict()) == without_clock(flags)
+    with pytest.raises(ehl.EhlError, match="machine= determines radius="):
+        ehl.solve(ehl.Contact(machine=FZG, radius=0.01, **steel))

@@ -44,6 +44,7 @@ const PAGES: &[Page] = pages![
     "limits.md",
     "command_line.md",
     "load_cases.md",
+    "measured.md",
     "scenes.md",
     "campaigns.md",
     "python.md",

@@ -201,11 +201,11 @@ const LIMITS: [Constant; 3] = [
 ];
 
 const SUPPLY: [Constant; 1] =
-    [constant("Inlet film thickness", ("Inlet film", "h", "in"), QuantityKind::FilmThickness, SUPPLY_TIP, |l| {
-        match &mut l.cavitation {
-            Cavitation::MassConserving { supply_film_m } => supply_film_m.as_mut(),
-            Cavitation::Penalty | Cavitation::Complementarity => None,
-        }
+    [constant("Inlet film thickness", ("Inlet film", "h", "in"), QuantityKind::OilLayer, SUPPLY_TIP, |l| match &mut l
+        .cavitation
+    {
+        Cavitation::MassConserving { supply_film_m } => supply_film_m.as_mut(),
+        Cavitation::Penalty | Cavitation::Complementarity => None,
     })];
 
 fn critical_stress(laws: &mut Lubricant) -> Option<&mut f64> {

@@ -147,24 +147,27 @@ fn si_ui(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, commands: &m
 /// Name under which refusals of the length are stored.
 const LENGTH: &str = "Length";
 
-/// Draws the field of the length of a line contact. Zero means none.
+/// Draws the field of the length of a line contact.
 fn length_ui(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, commands: &mut Commands) {
     let (document, system) = (context.document, context.system);
     let unit = QuantityKind::Length.unit(system);
     let meaning = "Length of the line contact, for the friction force, the torques and the power loss of the whole \
-                   contact; 0 for values per length";
+                   contact; “none” for values per length";
     ui.horizontal(|ui| {
         row_name(ui, name_and_symbol(ui, LENGTH, "", ""), meaning);
         let read = |text: &str| {
+            if matches!(text.trim().to_lowercase().as_str(), "none" | "–" | "-") {
+                return Ok(f64::NAN);
+            }
             let length = QuantityKind::Length.read(text, system)?;
             let (least, most) = engineering::Extent::LENGTHS_M;
             if length == 0.0 || (least..=most).contains(&length) {
-                return Ok(unit.number(length));
+                return Ok(if length == 0.0 { f64::NAN } else { unit.number(length) });
             }
             let [least, most] = [least, most].map(|length| numbers::length(length, system));
-            Err(Refusal::new(format!("the length must be 0 (none) or from {least} to {most}")))
+            Err(Refusal::new(format!("the length must be none or from {least} to {most}")))
         };
-        let value = unit.number(document.length_m.unwrap_or(0.0));
+        let value = document.length_m.map_or(f64::NAN, |length| unit.number(length));
         if let Some(length) = typed_field(ui, entries, LENGTH, value, 70.0, meaning, read) {
             commands.edit(Edit::Length(Some(unit.si(length)).filter(|length| *length > 0.0)), LENGTH);
         }

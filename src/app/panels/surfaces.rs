@@ -150,13 +150,16 @@ fn finishes_ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
             let text = present.map_or("Own", |finish| finish.name);
             let response = ComboBox::from_id_salt(name).width(78.0).selected_text(text).show_ui(ui, |ui| {
                 for finish in FINISHES {
+                    let (least, most) = finish.mean_height_m;
+                    let [least, most] = [least, most].map(|height| numbers::digits(unit.number(height), 2));
+                    let range = format!("Ra {least}…{most} {}: {}", unit.name, finish.source);
                     let text = format!(
                         "{}, Rq {} {}",
                         finish.name,
                         numbers::digits(unit.number(finish.rms_m()), 2),
                         unit.name
                     );
-                    if ui.selectable_label(present == Some(finish), text).on_hover_text(finish.source).clicked() {
+                    if ui.selectable_label(present == Some(finish), text).on_hover_text(range).clicked() {
                         *rms = finish.rms_m();
                     }
                 }

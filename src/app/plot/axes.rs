@@ -60,7 +60,7 @@ pub fn tick(value: f64) -> String {
     let rounded = (value * 1e12).round() / 1e12;
     let text = match rounded.abs() {
         0.0 => return "0".to_owned(),
-        size if size < 1e-3 => format!("{:e}", format!("{rounded:.3e}").parse().unwrap_or(rounded)),
+        size if !(1e-3..1e6).contains(&size) => format!("{:e}", format!("{rounded:.3e}").parse().unwrap_or(rounded)),
         _ => format!("{}", (rounded * 1e9).round() / 1e9),
     };
     text.replace('-', "−")
@@ -143,6 +143,12 @@ pub fn thinned(points: Vec<PlotPoint>) -> Vec<PlotPoint> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn ticks_are_short_in_every_system_of_units() {
+        let texts = [2_000_000_000.000_000_2, -5e-7, 0.25, 12_345.0, 0.0].map(tick);
+        assert_eq!(texts, ["2e9", "−5e−7", "0.25", "12345", "0"]);
+    }
 
     #[test]
     fn long_series_keep_their_extremes_and_their_order() {

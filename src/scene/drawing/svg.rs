@@ -65,11 +65,15 @@ impl Drawing {
     }
 }
 
+/// Returns points as the text of an attribute.
+fn list(points: &[[f64; 2]]) -> String {
+    points.iter().map(|[x, y]| format!("{x:.3},{y:.3}")).collect::<Vec<_>>().join(" ")
+}
+
 fn element(mark: &Mark) -> String {
     match mark {
         Mark::Line(points, pen) => {
-            let points: Vec<String> = points.iter().map(|[x, y]| format!("{x:.3},{y:.3}")).collect();
-            let points = points.join(" ");
+            let points = list(points);
             format!("<polyline points=\"{points}\" fill=\"none\" {} stroke-linejoin=\"round\"/>", stroke(pen))
         }
         Mark::Area([x, y, w, h], color, opacity) => format!(
@@ -77,8 +81,7 @@ fn element(mark: &Mark) -> String {
             hex(*color)
         ),
         Mark::Polygon(corners, color, opacity) => {
-            let corners: Vec<String> = corners.iter().map(|[x, y]| format!("{x:.3},{y:.3}")).collect();
-            let (corners, color) = (corners.join(" "), hex(*color));
+            let (corners, color) = (list(corners), hex(*color));
             format!("<polygon points=\"{corners}\" fill=\"{color}\" fill-opacity=\"{opacity:.3}\"/>")
         }
         Mark::Frame([x, y, w, h], pen) => format!(

@@ -92,7 +92,7 @@ impl FitParameter {
     /// Returns the value of a contact. `None` if its lubricant has no such constant.
     pub fn of(self, point: &OperatingPoint, lubricant: &Lubricant) -> Option<f64> {
         let mut copy = (*point, *lubricant);
-        self.place(&mut copy.0, &mut copy.1).map(|value| *value)
+        self.place(&mut copy.0, &mut copy.1).copied()
     }
 
     fn place<'a>(self, point: &'a mut OperatingPoint, lubricant: &'a mut Lubricant) -> Option<&'a mut f64> {

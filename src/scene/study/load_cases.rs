@@ -142,8 +142,15 @@ impl Question for LoadCases {
 
     /// Values: `cases`, `refused`; for each method `failures`; for each reduced method also `untrained`, the number of
     /// contacts outside the trained range, and `H_c_error` relative to the first full method. If the table has measured film
-    /// thicknesses, `deviation_mean` is the mean deviation of h_c from them, and `deviation` are its amounts.
-    fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
+    /// thicknesses, `deviation_mean` is the mean deviation of h_c from them, and `deviation` are its amounts. A value of the
+    /// first method for a named line has the name of the line, as `shaft.hertz.p_h_pa`.
+    fn findings(&self, experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
+        for name in &experiment.expected {
+            let of_line = |row: &&&Row| !row.name.is_empty() && name.starts_with(&format!("{}.", row.name));
+            let value =
+                rows.iter().find(of_line).and_then(|row| row.results().first()?.value(&name[row.name.len() + 1..]));
+            value.into_iter().for_each(|value| found.push(name.clone(), None, value));
+        }
         let refused = || rows.iter().filter(|row| row.results.is_err());
         found.push("cases", None, rows.len() as f64);
         found.push("refused", None, refused().count() as f64);

@@ -101,7 +101,7 @@ pub fn estimate<E>(
             let trial: Vec<f64> =
                 (0..place.len()).map(|i| clamped(place[i] - step[(i, 0)].clamp(-1.0, 1.0), ends[i])).collect();
             let moved = trial.iter().zip(&place).fold(0.0f64, |moved, (a, b)| moved.max((a - b).abs()));
-            if !(moved >= TOLERANCE) {
+            if moved.is_nan() || moved < TOLERANCE {
                 converged = true;
                 break;
             }
@@ -170,7 +170,7 @@ fn uncertainty<E>(
     let (count, normal) = (place.len(), gram(slopes));
     let sizes: Vec<f64> = (0..count).map(|k| normal[(k, k)].sqrt()).collect();
     let least = LEAST_SENSITIVITY * (here.len() as f64).sqrt();
-    if let Some(flat) = sizes.iter().position(|size| !(*size > least)) {
+    if let Some(flat) = sizes.iter().position(|size| size.is_nan() || *size <= least) {
         return Err(EstimationError::Undetermined(flat));
     }
     if let Some(end) = place.iter().zip(ends).position(|(q, (low, high))| q <= low || q >= high) {
@@ -178,7 +178,8 @@ fn uncertainty<E>(
     }
     let scaled = Mat::from_fn(count, count, |i, j| normal[(i, j)] / (sizes[i] * sizes[j]));
     let eigen = scaled.self_adjoint_eigen(Side::Lower).map_err(|_| EstimationError::NotConverged)?;
-    if !(eigen.S()[0] > LEAST_EIGENVALUE) {
+    let least = eigen.S()[0];
+    if least.is_nan() || least <= LEAST_EIGENVALUE {
         let weak = (0..count).max_by(|a, b| eigen.U()[(*a, 0)].abs().total_cmp(&eigen.U()[(*b, 0)].abs()));
         return Err(EstimationError::Undetermined(weak.unwrap_or(0)));
     }

@@ -3,7 +3,6 @@
 use super::quantity::Quantity;
 use crate::solver::limits::digits;
 use crate::solver::physics::contact::ContactKind;
-use crate::solver::physics::engineering::UnitSystem;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -46,7 +45,7 @@ impl fmt::Display for Outside {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Quantity { quantity, kind, value, ends: (low, high) } => {
-                let shown = quantity.kind(*kind).unit(UnitSystem::Engineering);
+                let shown = quantity.unit_in_sentences(*kind);
                 let unit = match shown.name.strip_prefix('1') {
                     _ if shown.name.is_empty() => String::new(),
                     Some(per) => per.to_owned(),
@@ -90,9 +89,9 @@ mod tests {
         };
         assert_eq!(sentence(Quantity::M, 30.0, (2.0, 500.0)), "");
         assert_eq!(sentence(Quantity::M, 1.0, (2.0, 500.0)), "M = 1 lies outside the trained range 2…500");
-        assert_eq!(sentence(Quantity::SlideToRollRatio, 0.7, (0.0, 0.6)), "SRR = 0.7 lies above the trained 0.6");
+        assert_eq!(sentence(Quantity::SlideToRollRatio, 0.7, (0.0, 0.6)), "SRR = 70 % lies above the trained 60 %");
         let reversed = sentence(Quantity::SlideToRollRatio, -0.3, (0.0, 0.6));
-        assert_eq!(reversed, "SRR = -0.3 lies outside the trained range 0…0.6");
+        assert_eq!(reversed, "SRR = -30 % lies outside the trained range 0…60 %");
         let thin = sentence(Quantity::FilmThickness, 0.1, (0.16, 1e6));
         assert_eq!(thin, "H_c by Moes’ formula = 0.1 lies below the trained 0.16");
         let radius = sentence(Quantity::Radius, 0.02, (0.01, 0.01));

@@ -3,7 +3,7 @@
 use super::scale::Scale;
 use crate::solver::physics::bodies::BodyHeat;
 use crate::solver::physics::contact::{ContactKind, Ellipse, OperatingPoint, expected_film, limits};
-use crate::solver::physics::engineering::{Dimension, QuantityKind};
+use crate::solver::physics::engineering::{Dimension, QuantityKind, Unit, UnitSystem};
 use crate::solver::physics::lubricant::{LimitingStress, Lubricant, ShearLaw, roelands_exponent};
 use serde::{Deserialize, Serialize};
 
@@ -208,6 +208,15 @@ impl Quantity {
             (Self::Load, ContactKind::Line) => QuantityKind::LineLoad,
             _ => self.facts().kind,
         }
+    }
+
+    /// Returns its unit in sentences, which is the same in every system of units. Temperatures are those of options, in K.
+    pub const fn unit_in_sentences(self, contact: ContactKind) -> Unit {
+        let system = match self {
+            Self::InletTemperature => UnitSystem::Si,
+            _ => UnitSystem::Engineering,
+        };
+        self.kind(contact).unit(system)
     }
 
     /// Returns the dimension of its entries.

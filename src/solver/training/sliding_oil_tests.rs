@@ -200,7 +200,7 @@ fn what_lies_outside_is_told_by_the_number_that_does() {
     assert!(sentence.starts_with("the shear stress by the pressure gradient = "), "{sentence}");
     assert!(sentence.ends_with("lies above the trained 1 MPa"), "{sentence}");
     assert_eq!(low.strange_shape(&thick), Some(why));
-    assert_eq!(told(231e9, 0.7, eyring(5e6)), "SRR = 0.7 lies above the trained 0.6");
+    assert_eq!(told(231e9, 0.7, eyring(5e6)), "SRR = 70 % lies above the trained 60 %");
     let plateau = Lubricant { shear: ShearLaw::Eyring { critical_stress: 5e6, npr: 0.1 }, ..eyring(5e6) };
     assert_eq!(told(231e9, 0.3, plateau), "the model was trained with other lubricant laws");
     assert_eq!(told(231e9, 0.3, Lubricant::default()), "the model was trained with other lubricant laws");

@@ -95,9 +95,20 @@ impl Desk {
     /// A sentence if the file cannot be read. The screen then keeps its content.
     pub fn open_path(&mut self, path: &Path) -> Result<(), Refusal> {
         if is_model(path) {
-            let model = self.answers.store().model_of_file(path)?;
-            self.answers.use_model(model);
-            self.files.notice = Some(Notice::Done(format!("Using the model {}", path.display())));
+            let store = self.answers.store();
+            match store.model_of_file(path) {
+                Ok(model) => {
+                    self.answers.use_model(model);
+                    self.files.notice = Some(Notice::Done(format!("Using the model {}", path.display())));
+                }
+                // A transient model serves runs by its scene; here its bases are shown.
+                Err(why) => {
+                    let model = store.trajectory_model_of_file(path).map_err(|_| why)?;
+                    self.tabs.basis.open_in_time(model);
+                    let said = format!("Reduced basis shows the transient model {}", path.display());
+                    self.files.notice = Some(Notice::Done(said));
+                }
+            }
             return Ok(());
         }
         if let Some(folder) = Folder::meant(path) {

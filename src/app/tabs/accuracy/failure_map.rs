@@ -47,9 +47,17 @@ impl By {
 /// State of the view.
 #[derive(Default)]
 pub struct Map {
-    by: By,
+    /// Error that the user chose; `None` for the bound, or the true error if there are no bounds.
+    by: Option<By>,
     drawn: Option<DrawnTests>,
     worst: Worst,
+}
+
+impl Map {
+    fn by(&self, results: &Results) -> By {
+        let bounds = || results.tests.is_empty() || results.tests.iter().any(|tested| bound_of(tested).is_some());
+        self.by.unwrap_or_else(|| if bounds() { By::Bound } else { By::Truth })
+    }
 }
 
 /// Tests as series of points, updated after a change.
@@ -123,21 +131,26 @@ pub fn ui(
         return;
     };
     ui.horizontal_wrapped(|ui| {
+        let mut by = map.by(results);
         ui.label("Judged by").on_hover_text("Colours the map and sorts the list");
         let bound = rich("bound on the error of {H_c}", 13.5, ui.visuals().text_color());
-        ui.selectable_value(&mut map.by, By::Bound, bound);
+        ui.selectable_value(&mut by, By::Bound, bound);
         let truth = rich("true error of {H_c}", 13.5, ui.visuals().text_color());
-        ui.selectable_value(&mut map.by, By::Truth, truth)
+        ui.selectable_value(&mut by, By::Truth, truth)
             .on_hover_text("Only contacts that were compared with full solutions have a colour");
         ui.weak(summary(results));
+        if by != map.by(results) {
+            map.by = Some(by);
+        }
     });
-    if map.by == By::Bound {
+    let by = map.by(results);
+    if by == By::Bound {
         super::parts::bound_note(ui, results.tests.iter().map(bound_of));
     }
-    if map.drawn.as_ref().is_none_or(|d| d.of != stamp(results, map.by)) {
-        map.drawn = Some(DrawnTests::new(results, map.by));
+    if map.drawn.as_ref().is_none_or(|d| d.of != stamp(results, by)) {
+        map.drawn = Some(DrawnTests::new(results, by));
     }
-    map.worst.sort(results, map.by);
+    map.worst.sort(results, by);
     let stale = is_former(ui, results, context);
     let here = context.document.point.moes();
     let mut wanted = None;

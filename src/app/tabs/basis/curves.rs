@@ -21,7 +21,8 @@ pub struct Shown {
 /// Curves of a local model.
 pub struct Curves {
     pub(super) window: usize,
-    pub(super) model: Arc<ReducedModel>,
+    /// Model of a contact; `None` for a basis of a transient model.
+    pub(super) model: Option<Arc<ReducedModel>>,
     pub(super) singular: [Vec<PlotPoint>; 2],
     pub(super) loss: [Vec<PlotPoint>; 2],
     pub(super) modes: Vec<(Field, usize, Vec<PlotPoint>)>,
@@ -30,7 +31,12 @@ pub struct Curves {
 }
 
 impl Curves {
-    pub(super) fn new(model: &Arc<ReducedModel>, at: usize, window: &Window) -> Self {
+    /// Returns true if they are those of a local model.
+    pub(super) fn is_of(&self, model: &Arc<ReducedModel>, window: usize) -> bool {
+        self.window == window && self.model.as_ref().is_some_and(|own| Arc::ptr_eq(own, model))
+    }
+
+    pub(super) fn new(model: Option<&Arc<ReducedModel>>, at: usize, window: &Window) -> Self {
         let log = |values: &mut dyn Iterator<Item = f64>, from: usize| -> Vec<PlotPoint> {
             values
                 .enumerate()
@@ -46,7 +52,7 @@ impl Curves {
         let rows = window.sampled_rows.iter().map(|row| window.grid.place(window.grid.node(*row)));
         Self {
             window: at,
-            model: Arc::clone(model),
+            model: model.cloned(),
             singular: [singular(window.pressure.basis()), singular(&window.deformation)],
             loss: [loss(window.pressure.basis()), loss(&window.deformation)],
             modes: Vec::new(),

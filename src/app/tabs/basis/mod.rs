@@ -2,6 +2,7 @@
 
 mod curves;
 mod field;
+mod in_time;
 mod losses;
 mod modes;
 mod plane;

@@ -3,6 +3,7 @@
 
 use super::curves::{Curves, Shown};
 use super::field::TRUNCATION;
+use super::in_time::InTime;
 use super::losses::{loss_plot, singular_plot};
 use super::{modes, sizes};
 use crate::app::context::{Commands, Context};
@@ -14,6 +15,7 @@ use crate::app::{badge, export, numbers};
 use crate::engine::job::Standing;
 use crate::engine::model_arrays;
 
+use crate::solver::reduced::transient::TrajectoryModel;
 use crate::solver::reduced::{PodBasis, ReducedModel, Scheme, Window};
 use egui::Ui;
 
@@ -45,6 +47,14 @@ pub struct Basis {
     below: Below,
     sizes: sizes::Sizes,
     shown: Shown,
+    in_time: InTime,
+}
+
+impl Basis {
+    /// Shows the bases of a transient model that was opened.
+    pub fn open_in_time(&mut self, model: Arc<TrajectoryModel>) {
+        self.in_time.open(model);
+    }
 }
 
 const ABOUT: About = About {
@@ -63,6 +73,18 @@ impl View for Basis {
     }
 
     fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+        if let Some(model) = self.in_time.model(context) {
+            ui.horizontal(|ui| {
+                let tip = "Reduced model of the contact on the left";
+                ui.selectable_value(&mut self.in_time.chosen, false, "Model of the contact").on_hover_text(tip);
+                let tip = "Transient reduced model: the one that was opened, or that of the run on the screen";
+                ui.selectable_value(&mut self.in_time.chosen, true, "Transient model").on_hover_text(tip);
+            });
+            if self.in_time.chosen {
+                self.in_time.ui(ui, &model, context.fit);
+                return;
+            }
+        }
         let Some(model) = context.answers.model(context.document).cloned() else {
             ui.centered_and_justified(|ui| {
                 ui.weak(
@@ -73,11 +95,11 @@ impl View for Basis {
         };
         let at = model.window_for(&context.document.point);
         let Some(window) = model.windows.get(at) else { return };
-        if self.shown.curves.as_ref().is_none_or(|c| c.window != at || !Arc::ptr_eq(&c.model, &model)) {
-            self.shown.curves = Some(Curves::new(&model, at, window));
+        if self.shown.curves.as_ref().is_none_or(|c| !c.is_of(&model, at)) {
+            self.shown.curves = Some(Curves::new(Some(&model), at, window));
         }
-        if let Some(curves) = &self.shown.curves {
-            let of = Owner::Model(InUse::new(&curves.model, &context.document.view));
+        if let Some(model) = self.shown.curves.as_ref().and_then(|curves| curves.model.as_ref()) {
+            let of = Owner::Model(InUse::new(model, &context.document.view));
             drawn::note(ui.ctx(), "basis", of, false);
         }
         toolbar(ui, context, commands, &model, (at, window));

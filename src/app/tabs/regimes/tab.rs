@@ -12,10 +12,11 @@ use crate::app::tabs::regimes::chart::{ChartLine, ChartLines, Kind, point, shadi
 use crate::app::tabs::regimes::trail::Trail;
 use crate::app::tabs::{About, Offer, View, view};
 use crate::app::theme::{Palette, faded, rich};
-use crate::app::{formulas, numbers};
+use crate::app::{formulas, numbers, units};
 use crate::scene::regime::RegimeMap;
 use crate::scene::regimes::{L_AXIS, M_AXIS};
-use crate::solver::physics::contact::{ContactKind, FilmShape, Moes};
+use crate::solver::physics::contact::{ContactKind, FilmShape, Moes, PLAUSIBLE_HERTZ_PRESSURE_PA};
+use crate::solver::physics::engineering::QuantityKind;
 use crate::solver::reduced::ReducedModel;
 use egui::{Align2, RichText, ScrollArea, Ui, WidgetText};
 use egui_plot::{Line, LineStyle, MarkerShape, PlotPoint, PlotPoints, Points, Text};
@@ -297,6 +298,11 @@ fn at(moes: Moes) -> PlotPoint {
     point(moes.m, moes.l)
 }
 
+/// Returns the Hertzian pressure of the limit in the units of the window.
+fn limit(ctx: &egui::Context) -> String {
+    numbers::in_field_unit(QuantityKind::Pressure, PLAUSIBLE_HERTZ_PRESSURE_PA, units::system(ctx))
+}
+
 /// Draws a line of the chart with its name next to it.
 fn draw<'a>(plot: &mut Canvas<'_, 'a>, line: &'a ChartLine, place: usize, palette: &Palette) {
     let points = &line.points;
@@ -305,7 +311,7 @@ fn draw<'a>(plot: &mut Canvas<'_, 'a>, line: &'a ChartLine, place: usize, palett
         Kind::Contour => (film(), faded(palette.film, 0.55), 1.0, LineStyle::dotted_dense()),
         Kind::Boundary => (String::new(), palette.quiet, 1.2, LineStyle::Solid),
         Kind::PressureLimit => {
-            let name = "p_H = 3.2 GPa in the default realisation".to_owned();
+            let name = format!("p_H = {} in the default realisation", limit(plot.ctx()));
             (name, palette.warning, 1.4, LineStyle::dashed_loose())
         }
         Kind::Trained => ("Trained range".to_owned(), palette.accent, 1.8, LineStyle::Solid),
@@ -327,7 +333,8 @@ fn draw<'a>(plot: &mut Canvas<'_, 'a>, line: &'a ChartLine, place: usize, palett
             Some((small(&name, 10.5, palette.film), end, Align2::RIGHT_BOTTOM))
         }
         Kind::PressureLimit => {
-            let text = rich("{p_H} = 3.2 GPa", 11.5, palette.ink_on_regimes(palette.warning)).into();
+            let text = format!("{{p_H}} = {}", limit(plot.ctx()));
+            let text = rich(&text, 11.5, palette.ink_on_regimes(palette.warning)).into();
             Some((text, points.first(), Align2::RIGHT_TOP))
         }
         Kind::Trained => {

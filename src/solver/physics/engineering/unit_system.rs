@@ -129,6 +129,8 @@ pub enum QuantityKind {
     Length,
     /// Length of the size of a film thickness or a roughness.
     FilmThickness,
+    /// Length of the size of an oil layer in front of a starved contact.
+    OilLayer,
     Speed,
     Force,
     /// Load per length.
@@ -180,6 +182,7 @@ impl QuantityKind {
         match self {
             Self::Length => const { [METRES, &[from("mm", 1e-3, 1.0), unit("µm", 1e-6), unit("nm", 1e-9)], &[from("in", INCH, 0.001), unit("µin", 1e-6 * INCH)]] },
             Self::FilmThickness => const { [METRES, &[unit("µm", 1e-6), from("mm", 1e-3, 1.0), unit("nm", 1e-9)], &[unit("µin", 1e-6 * INCH), from("in", INCH, 0.001)]] },
+            Self::OilLayer => const { [METRES, &[unit("nm", 1e-9), unit("µm", 1e-6), from("mm", 1e-3, 1.0)], &[unit("µin", 1e-6 * INCH), from("in", INCH, 0.001)]] },
             Self::Speed => const { [METRES_PER_SECOND, METRES_PER_SECOND, &[unit("in/s", INCH)]] },
             Self::Force => const { [NEWTONS, &[unit("N", 1.0), from("kN", 1e3, 1.0), unit("mN", 1e-3)], &[unit("lbf", LBF)]] },
             Self::LineLoad => const { [&[unit("N/m", 1.0)], &[unit("N/mm", 1e3)], &[unit("lbf/in", LBF / INCH)]] },
@@ -253,7 +256,7 @@ impl QuantityKind {
     /// Returns the dimension of entries; `None` for kinds that are never entered.
     pub const fn dimension(self) -> Option<Dimension> {
         Some(match self {
-            Self::Length | Self::FilmThickness => Dimension::Length,
+            Self::Length | Self::FilmThickness | Self::OilLayer => Dimension::Length,
             Self::Speed => Dimension::Speed { radius_m: None },
             Self::Force => Dimension::Force,
             Self::LineLoad => Dimension::LineLoad,
@@ -315,13 +318,13 @@ mod tests {
         (K::PressureCoefficient, 2e-8, [(2e-8, "1/Pa"), (20.0, "1/GPa"), (0.137_895_145_863_367, "1/ksi")]),
         (K::Temperature, 353.15, [(353.15, "K"), (80.0, "°C"), (176.0, "°F")]),
         (K::PerKelvin, 0.045, [(0.045, "1/K"), (0.045, "1/K"), (0.025, "1/°F")]),
-        (K::Density, 880.0, [(880.0, "kg/m³"), (880.0, "kg/m³"), (54.936_605_2, "lb/ft³")]),
+        (K::Density, 880.0, [(880.0, "kg/m³"), (880.0, "kg/m³"), (54.936_605_3, "lb/ft³")]),
         (K::Time, 0.002, [(0.002, "s"), (2.0, "ms"), (2.0, "ms")]),
         (K::Rotation, 50.0 * PI, [(50.0 * PI, "rad/s"), (1500.0, "rpm"), (1500.0, "rpm")]),
         (K::Torque, 1.129_848_290_276_17, [(1.129_848_290_276_17, "N m"), (1.129_848_290_276_17, "N m"), (10.0, "lbf in")]),
         (K::Stiffness, 17_512.683_524_647_64, [(17_512.683_524_647_64, "N/m"), (17.512_683_524_647_64, "N/mm"), (100.0, "lbf/in")]),
-        (K::Conductivity, 0.14, [(0.14, "W/(m K)"), (0.14, "W/(m K)"), (0.080_890_532, "Btu/(h ft °F)")]),
-        (K::HeatCapacity, 2000.0, [(2000.0, "J/(kg K)"), (2000.0, "J/(kg K)"), (0.477_691_793, "Btu/(lb °F)")]),
+        (K::Conductivity, 0.14, [(0.14, "W/(m K)"), (0.14, "W/(m K)"), (0.080_890_504_3, "Btu/(h ft °F)")]),
+        (K::HeatCapacity, 2000.0, [(2000.0, "J/(kg K)"), (2000.0, "J/(kg K)"), (0.477_691_793_3, "Btu/(lb °F)")]),
         (K::Percent, 0.1, [(10.0, "%"), (10.0, "%"), (10.0, "%")]),
     ];
 

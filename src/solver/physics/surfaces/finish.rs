@@ -57,46 +57,29 @@ pub struct Finish {
     pub name: &'static str,
     /// Usual range of Ra \[m\].
     pub mean_height_m: (f64, f64),
-    /// Range as text, with its source.
+    /// Source of the range, and to what it applies.
     pub source: &'static str,
 }
+
+/// Source of the ranges of processes.
+const PROCESS: &str = "average application of the process; ASME B46.1, Machinery’s Handbook";
 
 /// Finishes of steel surfaces, from smooth to rough.
 pub const FINISHES: [Finish; 7] = [
     Finish {
         name: "Rolling element",
         mean_height_m: (1.5e-8, 1.2e-7),
-        source: "Ra 0.015…0.12 µm: balls and rollers of bearings; Hamrock, Fundamentals of Fluid Film Lubrication",
+        source: "balls and rollers of bearings; Hamrock, Fundamentals of Fluid Film Lubrication",
     },
-    Finish {
-        name: "Superfinished",
-        mean_height_m: (5e-8, 2e-7),
-        source: "Ra 0.05…0.2 µm: average application of the process; ASME B46.1, Machinery’s Handbook",
-    },
-    Finish {
-        name: "Lapped",
-        mean_height_m: (5e-8, 4e-7),
-        source: "Ra 0.05…0.4 µm: average application of the process; ASME B46.1, Machinery’s Handbook",
-    },
-    Finish {
-        name: "Polished",
-        mean_height_m: (1e-7, 4e-7),
-        source: "Ra 0.1…0.4 µm: average application of the process; ASME B46.1, Machinery’s Handbook",
-    },
-    Finish {
-        name: "Honed",
-        mean_height_m: (1e-7, 8e-7),
-        source: "Ra 0.1…0.8 µm: average application of the process; ASME B46.1, Machinery’s Handbook",
-    },
-    Finish {
-        name: "Ground",
-        mean_height_m: (1e-7, 1.6e-6),
-        source: "Ra 0.1…1.6 µm: average application of the process; ASME B46.1, Machinery’s Handbook",
-    },
+    Finish { name: "Superfinished", mean_height_m: (5e-8, 2e-7), source: PROCESS },
+    Finish { name: "Lapped", mean_height_m: (5e-8, 4e-7), source: PROCESS },
+    Finish { name: "Polished", mean_height_m: (1e-7, 4e-7), source: PROCESS },
+    Finish { name: "Honed", mean_height_m: (1e-7, 8e-7), source: PROCESS },
+    Finish { name: "Ground", mean_height_m: (1e-7, 1.6e-6), source: PROCESS },
     Finish {
         name: "Shot-peened",
         mean_height_m: (8e-7, 3e-6),
-        source: "Ra 0.8…3 µm: representative, it depends on shot and intensity; measure it",
+        source: "representative, it depends on shot and intensity; measure it",
     },
 ];
 
