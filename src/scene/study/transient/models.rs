@@ -13,7 +13,9 @@ use crate::scene::table::Table;
 use crate::solver::full::transient::{Frame, FullMarch, Keep, Marching, Trajectory, Transient};
 use crate::solver::reduced::tpwl::{TpwlError, TpwlMarch, TpwlModel, TpwlTraining, Weighting};
 use crate::solver::reduced::transient::{ReducedMarch, TrajectoryModel};
-use crate::solver::training::{TrajectoryTraining, on_one_thread, train_trajectories};
+use crate::solver::training::{
+    ResponseTraining, TrajectoryTraining, on_one_thread, train_responses, train_trajectories,
+};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -161,6 +163,10 @@ impl Runner<'_, '_> {
             (self.tell)(Row::Model(model.clone()));
             models.push(model);
         }
+        if let Some(responses) = reduced.as_ref().and_then(|reduced| reduced.responses) {
+            models.push(self.from_responses(&responses, &own.transient)?);
+            return Ok(models);
+        }
         let training = reduced.as_ref().and_then(ReducedTransient::training);
         if training.is_none() && linearised.is_none() {
             return Ok(models);
@@ -197,6 +203,26 @@ impl Runner<'_, '_> {
             (self.tell)(Row::Trained { frame: own.transient.frame, wall_s, moments, cut_short });
         }
         Ok(trained)
+    }
+
+    /// Trains the model of a circular contact.
+    fn from_responses(&self, training: &ResponseTraining, own: &Transient) -> Result<Model, RunError> {
+        let begun = Stopwatch::start();
+        let model = self.trained_by_responses(training, own)?;
+        let (name, wall_s) = (reduced_name(model.frame), begun.seconds());
+        let model = Model { name, frame: model.frame, kind: Kind::Reduced(Arc::new(model)), wall_s };
+        (self.tell)(Row::Model(model.clone()));
+        Ok(model)
+    }
+
+    /// Trains the model of a circular contact around the reference contact of a march.
+    pub(super) fn trained_by_responses(
+        &self,
+        training: &ResponseTraining,
+        own: &Transient,
+    ) -> Result<TrajectoryModel, RunError> {
+        let grid = self.grid.point().ok_or_else(|| RunError::Study("responses need a point contact".to_owned()))?;
+        Ok(train_responses(grid, own.point, own.lubricant, training, self.setting.observer)?)
     }
 
     fn reduced(
