@@ -22,6 +22,7 @@ use crate::solver::observer::{Observer, Progress};
 use crate::solver::parameters::{Axis, ParameterSpace, Quantity};
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Lubricant;
+use crate::solver::reduced::tpwl::{Plane, ReducedSpace, Selection, SpaceGrid, TpwlError, TpwlModel, TpwlTraining};
 use crate::solver::reduced::transient::{Reach, ReducedMarch, TrajectoryDomain, TrajectoryModel, TrajectoryStart};
 use crate::solver::reduced::{
     Domain, GoalEquations, Iterate, PodBasis, PressureModes, SampledRows, Sampling, TestSpace, Window, all_rows,
@@ -95,11 +96,71 @@ pub(crate) struct Steady {
     pub responses: Vec<Vec<f64>>,
 }
 
-/// Trains a model of loads and speeds around a circular contact, in the fixed frame.
+/// Basis and test functions of a circular contact, with the march that sweeps the range. Reduced and linearised models
+/// are built from it.
+pub struct ResponseBasis {
+    own: Transient,
+    training: ResponseTraining,
+    exact: Arc<TrajectoryModel>,
+    swept: Trajectory,
+}
+
+impl ResponseBasis {
+    /// Computes the basis of loads and speeds around a circular contact, in the fixed frame.
+    ///
+    /// # Errors
+    /// [`TrainingError`] if the contact or a setting is refused, a steady contact is not solved, the linear algebra
+    /// fails, or the observer cancels.
+    pub fn new(
+        grid: &Arc<PointGrid>,
+        point: OperatingPoint,
+        lubricant: Lubricant,
+        training: &ResponseTraining,
+        observer: &dyn Observer,
+    ) -> Result<Self, TrainingError> {
+        training.check()?;
+        if point.is_elliptic() || grid.spec.continues() {
+            return Err(TrainingError::Specification(COVERED.to_owned()));
+        }
+        let own = Transient { lubricant, ..Transient::new(point, Inputs::default(), 1.0, training.step) };
+        let problem = own.problem()?;
+        let steady = steady(grid, &own, &problem, training, observer)?;
+        let swept = swept(grid, &own, training, observer)?;
+        let exact = Arc::new(exact(grid, &own, &problem, (&steady, &swept), training, observer)?);
+        Ok(Self { own, training: *training, exact, swept })
+    }
+
+    /// Samples the equations of the reduced model.
+    ///
+    /// # Errors
+    /// [`TrainingError`] if too few equations represent the steps, or if the observer cancels.
+    pub fn reduced(&self, observer: &dyn Observer) -> Result<TrajectoryModel, TrainingError> {
+        let rows = sampled(&self.exact, &self.own, &self.training, observer)?;
+        let mut model = TrajectoryModel::clone(&self.exact);
+        model.window.set_rows(Sampling::Cubature, rows);
+        Ok(model)
+    }
+
+    /// Linearises the contact about states of the march with the first `modes` modes. A rule selects the states.
+    ///
+    /// # Errors
+    /// [`TpwlError`] if a setting is refused.
+    pub fn linearised(&self, modes: usize, selection: Selection) -> Result<TpwlModel, TpwlError> {
+        let window = &self.exact.window;
+        let Some(grid) = window.grid.point() else { return Err(TpwlError::NoTraining) };
+        let modes = modes.min(window.reconstruction.nrows());
+        let test = Mat::from_fn(window.reconstruction.ncols(), modes, |row, k| window.reconstruction[(k, row)]);
+        let space =
+            ReducedSpace::new(SpaceGrid::Plane(Plane(Arc::clone(grid))), window.pressure.basis(), test, PENALTY);
+        let (values, training) = (window.pressure.singular_values().to_vec(), TpwlTraining { modes, selection });
+        TpwlModel::train_in(space, values, &[&self.swept], training)
+    }
+}
+
+/// Trains a reduced model of loads and speeds around a circular contact, in the fixed frame.
 ///
 /// # Errors
-/// [`TrainingError`] if the contact or a setting is refused, a steady contact is not solved, the linear algebra fails,
-/// or the observer cancels.
+/// As [`ResponseBasis::new`] and [`ResponseBasis::reduced`].
 pub fn train_responses(
     grid: &Arc<PointGrid>,
     point: OperatingPoint,
@@ -107,19 +168,7 @@ pub fn train_responses(
     training: &ResponseTraining,
     observer: &dyn Observer,
 ) -> Result<TrajectoryModel, TrainingError> {
-    training.check()?;
-    if point.is_elliptic() || grid.spec.continues() {
-        return Err(TrainingError::Specification(COVERED.to_owned()));
-    }
-    let own = Transient { lubricant, ..Transient::new(point, Inputs::default(), 1.0, training.step) };
-    let problem = own.problem()?;
-    let steady = steady(grid, &own, &problem, training, observer)?;
-    let swept = swept(grid, &own, training, observer)?;
-    let exact = Arc::new(exact(grid, &own, &problem, (&steady, &swept), training, observer)?);
-    let sampled = sampled(&exact, &own, training, observer)?;
-    let mut model = Arc::unwrap_or_clone(exact);
-    model.window.set_rows(Sampling::Cubature, sampled);
-    Ok(model)
+    ResponseBasis::new(grid, point, lubricant, training, observer)?.reduced(observer)
 }
 
 impl ResponseTraining {

@@ -313,7 +313,7 @@ impl TransientStudy {
     /// With the first invalid field.
     pub(super) fn check_with(&self, experiment: &Experiment) -> Checked {
         let by_model = self.reduced.is_some() || self.linearised.is_some();
-        coverage::check_full(experiment, self.linearised.is_some(), self.mass_between.is_some())?;
+        coverage::check_full(experiment, self.mass_between.is_some())?;
         count("study.frames (how many)", self.frames.len(), 1, 4)?;
         if (1..self.frames.len()).any(|i| self.frames[..i].contains(&self.frames[i])) {
             return Err(refuse("study.frames", "must not name a frame twice: results are named by it"));
@@ -353,6 +353,13 @@ impl TransientStudy {
             coverage::check_models(experiment)?;
         }
         self.reduced.iter().try_for_each(|reduced| reduced.check(experiment))?;
+        if experiment.contact == ContactKind::Point && self.linearised.is_some() && self.responses().is_none() {
+            let problem = "needs `reduced: (responses: ())` for a point contact: both models have one basis";
+            return Err(refuse("study.linearised", problem));
+        }
+        if self.responses().is_some() && self.linearised.as_ref().is_some_and(|own| own.points.is_some()) {
+            return Err(refuse("study.linearised.points", "is for line contacts; give the tolerance of the selection"));
+        }
         self.linearised.iter().try_for_each(|linearised| linearised.check(&self.frames))
     }
 

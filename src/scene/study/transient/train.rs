@@ -78,7 +78,7 @@ impl Scene {
         let setting = Setting { experiment: &experiment, bench, observer, wants_states: false };
         let runner = Runner { study: &study, grid, saved: None, setting: &setting, tell: &|_| {} };
         let (mut model, stopped) = match (study.responses(), study.training()) {
-            (Some(responses), _) => (runner.trained_by_responses(&responses, &own)?, Vec::new()),
+            (Some(responses), _) => (runner.responses(&responses, &own)?.reduced(observer)?, Vec::new()),
             (None, Some(training)) => runner.trained_by_marches(&training, &own)?,
             (None, None) => return Err(none()),
         };
