@@ -1,13 +1,14 @@
 //! Tests of transient reduced models of circular contacts against full marches, and of what they refuse.
 
 use super::small::Made;
-use super::{ResponseTraining, TrainingError, train_responses};
+use super::{ResponseBasis, ResponseTraining, TrainingError, train_responses};
 use crate::solver::discrete::grid::{PointGrid, PointGridSpec};
 use crate::solver::discrete::space::PlaneSpace;
 use crate::solver::full::transient::{FullMarch, Inputs, Keep, Quantity, Signal, Trajectory, Transient, march};
 use crate::solver::observer::{Observer, Progress};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::{Cavitation, Lubricant};
+use crate::solver::reduced::tpwl::{self, Selection, Weighting};
 use crate::solver::reduced::transient::{ReducedMarch, TrajectoryModel};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -88,6 +89,30 @@ fn a_model_follows_full_marches_under_loads_and_speeds_that_it_has_not_seen() {
         assert!(off(&own.pressure, &other.pressure) < 0.03, "{}", off(&own.pressure, &other.pressure));
         assert!(off(&own.film, &other.film) < 0.01, "{}", off(&own.film, &other.film));
     }
+}
+
+#[test]
+fn under_a_prescribed_separation_the_load_is_that_of_the_full_march() {
+    let transient = Transient { separation: Some(harmonic(0.03, 1.2)), ..driven(Inputs::default()) };
+    let (wanted, seen) = (full(&transient), reduced(&trained(), &transient));
+    assert!(wanted.finished() && seen.finished(), "{}", seen.ended.describe());
+    let off = wanted.difference(&seen, Quantity::Load, (0.0, transient.duration)).unwrap();
+    assert!(off.0 < 3e-3, "{off:?}");
+    let loads = wanted.moments.iter().map(|moment| moment.input.load);
+    assert!(loads.fold(0.0, f64::max) > 1.02, "the load varies");
+}
+
+#[test]
+fn a_linearised_model_in_the_same_basis_follows_a_full_march_roughly() {
+    let basis = ResponseBasis::new(&grid(), BALL, lubricant(), &TRAINING, &()).unwrap();
+    let model = basis.linearised(30, Selection::Distance { tolerance: 0.03 }).unwrap();
+    assert!(model.space.modes() == 30 && model.points.len() > 10, "{} points", model.points.len());
+    let transient = driven(Inputs::load(harmonic(0.08, 1.2)));
+    let (seen, _) = tpwl::solve(&model, &transient, Weighting::DualTaylor, &()).unwrap();
+    let off = full(&transient).difference(&seen, Quantity::CentralFilm, (0.0, transient.duration)).unwrap();
+    assert!(seen.finished() && off.1 < 1e-2, "{off:?}");
+    let other = Transient { point: OperatingPoint { speed_m_per_s: 0.3, ..BALL }, ..transient };
+    assert!(tpwl::solve(&model, &other, Weighting::DualTaylor, &()).is_err());
 }
 
 #[test]
