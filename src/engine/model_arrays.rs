@@ -108,8 +108,9 @@ pub fn of_linearised(model: &TpwlModel) -> Vec<Array> {
         })
         .collect();
     let mut arrays = vec![
-        Array::list("x", space.grid.x.clone()),
-        Array::list("weights", space.grid.weights.clone()),
+        Array::list("x", space.grid.abscissae().0.to_vec()),
+        Array::list("y", space.grid.abscissae().1.to_vec()),
+        Array::list("weights", space.grid.weights().to_vec()),
         matrix("pressure_modes".to_owned(), &space.pressure),
         matrix("mode_deformations".to_owned(), &space.deformation),
         Array::list("singular_values", model.singular_values.clone()),

@@ -88,6 +88,14 @@ pub enum Warning {
         /// Warning of the steady contact at this time.
         warning: Box<Self>,
     },
+    /// The load at an approach is not among the trained loads and follows a power law from the last of them.
+    #[error("{}", extrapolated(*load, *last))]
+    LoadExtrapolated {
+        /// The load \[N/m\] or \[N\].
+        load: f64,
+        /// Last trained load.
+        last: f64,
+    },
     /// The inputs of a march change faster than its linearised model can follow.
     #[error("the inputs are too steep for linearised models; {advice}")]
     TooSteep {
@@ -358,6 +366,12 @@ fn discretisation(relative: f64, ends: Option<&NearEnds>, spacing: Option<&WideS
 }
 
 /// Formats the sentence of a time-step error.
+fn extrapolated(load: f64, last: f64) -> String {
+    let (side, law) = if load < last { ("below", "an open gap") } else { ("above", "a dry contact") };
+    let [load, last] = [load, last].map(crate::solver::limits::digits);
+    format!("the load {load} is {side} the trained {last}, from where it follows the power law of {law}")
+}
+
 fn time_step_error(relative: f64, tolerance: Option<f64>) -> String {
     let percent = 100.0 * relative;
     match tolerance {

@@ -50,11 +50,11 @@ typedef struct EhlInputs {
    */
   double srr;
   /*
-   Load, N/m for a line contact, N for a point contact. If the approach is given, first guess of the load.
+   Load, N/m for a line contact, N for a point contact. Ignored if the approach is given.
    */
   double load;
   /*
-   Approach of the bodies since first contact, m. Ignored if the load is given.
+   Approach of the bodies since first contact, m; negative for separated bodies. Ignored if the load is given.
    */
   double approach;
   /*

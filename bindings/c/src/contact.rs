@@ -29,9 +29,9 @@ pub struct EhlInputs {
     pub speed: f64,
     /// Slide-to-roll ratio: sliding speed over mean entrainment speed.
     pub srr: f64,
-    /// Load, N/m for a line contact, N for a point contact. If the approach is given, first guess of the load.
+    /// Load, N/m for a line contact, N for a point contact. Ignored if the approach is given.
     pub load: f64,
-    /// Approach of the bodies since first contact, m. Ignored if the load is given.
+    /// Approach of the bodies since first contact, m; negative for separated bodies. Ignored if the load is given.
     pub approach: f64,
     /// Reduced modulus E', Pa.
     pub modulus: f64,

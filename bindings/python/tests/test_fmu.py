@@ -321,7 +321,6 @@ def test_exports_that_make_no_sense_are_refused(program, tmp_path):
     line, out = ROOT / "assets" / "line.rom", tmp_path / "unit.fmu"
     for words, part in [
         (["fmu", "no_such.rom"], "no_such.rom"),
-        (["fmu", line, "--approach"], "give its load instead"),
         (["fmu", line, "--lubricant", "squalane-pip"], "another lubricant"),
         (["fmu", line, "--lubricant", "butter"], "accepted are"),
         (["fmu", line, "--library", "no_such.so"], "no_such.so"),

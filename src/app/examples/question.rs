@@ -45,6 +45,7 @@ pub fn question(scene: &Scene) -> String {
         Study::InformationLoss(_) => "How many modes do transient pressures need, and in which frame?".to_owned(),
         Study::SchemesInTime(_) => "Which scheme should a reduced model use for its time steps?".to_owned(),
         Study::Amplitude(_) => "How much of a wavy surface remains in the film?".to_owned(),
+        Study::Vibration(_) => "How stiff is the film, and how much does it damp vibrations?".to_owned(),
         Study::FlowCurve(_) => "How does the viscosity of a shear-thinning oil decrease?".to_owned(),
     }
 }

@@ -179,6 +179,10 @@ pub(super) fn marks(scene: &Scene) -> Vec<Mark> {
             let law = |x: f32| 0.9 / (1.0 + (8.0 * (x - 0.5)).exp());
             vec![Line(Quiet, curve(law)), Dots(Film, dots(8, law))]
         }
+        Study::Vibration(_) => {
+            let rise = |x: f32| 1.0 / (1.0 + (-10.0 * (x - 0.5)).exp());
+            vec![Line(Film, curve(|x| 0.45 + 0.3 * rise(x))), Line(Friction, curve(|x| 0.8 - 0.65 * rise(x)))]
+        }
         Study::FlowCurve(_) => {
             let thinned = |x: f32| 0.2 + 0.65 / (1.0 + (10.0 * (x - 0.5)).exp());
             vec![Line(Friction, curve(thinned)), Dashes(Quiet, curve(|_| 0.85))]

@@ -14,9 +14,6 @@ pub enum CoupledError {
     /// The model contains no local model.
     #[error("the reduced model `{0}` contains no local model")]
     NoWindow(String),
-    /// An approach was given for a line contact. It is not defined for half-planes.
-    #[error("the approach of a line contact depends on the size of its bodies; give its load instead")]
-    LineApproach,
     /// An approach was given for a transient model.
     #[error("the input of a transient model is its load; leave out --approach")]
     ApproachInTime,

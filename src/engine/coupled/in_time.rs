@@ -249,7 +249,7 @@ impl InTime {
             problem,
             mesh: Mesh { spec: self.model.window.grid.spec(), scale: 1.0 },
             x: march.abscissae().to_vec(),
-            y: vec![0.0],
+            y: self.model.window.grid.abscissae().1.to_vec(),
             pressure: fields.pressure,
             film: fields.film,
             multiplier: Vec::new(),

@@ -5,6 +5,7 @@
 //! on the inputs. [`InTime`] is the equivalent for transient models, whose state advances. [`fmu`] exports both as
 //! Functional Mock-up Units.
 
+mod approach;
 mod error;
 pub mod fmu;
 mod in_time;
@@ -12,7 +13,8 @@ mod in_time;
 pub use error::CoupledError;
 pub use in_time::{InTime, InTimeState};
 
-use self::error::{check, check_sliding};
+use self::approach::Reach;
+use self::error::check_sliding;
 use super::answer::{Solver, answer};
 use crate::scene::{Answer, ContactResult, ContactSpec, Grid, Method, ModelSource, Request, Words};
 use crate::solver::full::{ContactSolver, Problem, Start};
@@ -24,19 +26,12 @@ use crate::solver::warning::Warning;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// Tolerance of ln(load) in the search for an approach.
-const LOAD_FOUND: f64 = 1e-13;
-/// Largest number of solves of the search.
-const MOST_SOLVES: usize = 80;
-/// Factor by which the load changes until the approach is bracketed.
-const WIDER: f64 = 2.0;
-
 /// Input that presses the bodies together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pressed {
     /// Load: \[N/m\] for a line contact, \[N\] for a point contact.
     Load,
-    /// Approach of points far inside both bodies \[m\], for a point contact. The load is an output.
+    /// Approach of both bodies \[m\], see [`Outputs::approach_m`]; negative for separated bodies. The load is an output.
     Approach,
 }
 
@@ -51,7 +46,7 @@ pub struct Inputs {
     pub speed_m_per_s: f64,
     /// Slide-to-roll ratio.
     pub slide_to_roll_ratio: f64,
-    /// Load \[N/m\] or \[N\]. If an approach is given, start value of the search.
+    /// Load \[N/m\] or \[N\]. Not used if an approach is given.
     pub load: f64,
     /// Approach \[m\], if it is an input.
     pub approach_m: f64,
@@ -181,23 +176,22 @@ pub struct Coupled {
     full: Option<ContactSolver>,
     lubricant: Lubricant,
     pressed: Pressed,
+    /// Trained loads of the last inputs, if an approach is given.
+    reach: Option<Reach>,
 }
 
 impl Coupled {
     /// Returns a contact solved by a model, with the lubricant that the model was trained with.
     ///
     /// # Errors
-    /// If the model contains no local model, or if an approach is requested for a line contact.
+    /// If the model contains no local model.
     pub fn new(model: Arc<ReducedModel>, pressed: Pressed) -> Result<Self, CoupledError> {
         if model.windows.is_empty() {
             return Err(CoupledError::NoWindow(model.title.clone()));
         }
-        if pressed == Pressed::Approach && model.contact() == ContactKind::Line {
-            return Err(CoupledError::LineApproach);
-        }
         let online = Online::new(Arc::clone(&model), ReducedOptions::default());
         let lubricant = model.domain.lubricant;
-        Ok(Self { model, online, full: None, lubricant, pressed })
+        Ok(Self { model, online, full: None, lubricant, pressed, reach: None })
     }
 
     /// Returns which input presses the bodies together.
@@ -279,51 +273,5 @@ impl Coupled {
             return Ok(full);
         }
         Err(CoupledError::NoSolution(full.result.warning()))
-    }
-
-    /// Returns the outputs at the given approach. The load is bracketed and then refined.
-    fn approached(&mut self, inputs: &Inputs) -> Result<Outputs, CoupledError> {
-        let wanted = inputs.approach_m;
-        check("approach", wanted, " m", (" above zero", |wanted| wanted > 0.0))?;
-        let mut solves = 0;
-        let mut miss = |own: &mut Self, load: f64| {
-            solves += 1;
-            if solves > MOST_SOLVES {
-                return Err(CoupledError::NoLoad(wanted));
-            }
-            let outputs = own.under(inputs, load)?;
-            Ok((load.ln(), outputs.approach_m / wanted - 1.0, outputs))
-        };
-        let first = miss(self, inputs.load)?;
-        if first.1 == 0.0 {
-            return Ok(first.2);
-        }
-        let factor = if first.1 < 0.0 { WIDER } else { 1.0 / WIDER };
-        let mut near = first;
-        let mut far = miss(self, near.0.exp() * factor)?;
-        while far.1 * near.1 > 0.0 {
-            near = far;
-            far = miss(self, near.0.exp() * factor)?;
-        }
-        // Regula falsi, Illinois variant: the value of an end point that is retained twice is halved.
-        let (mut a, mut b) = ((near.0, near.1), (far.0, far.1));
-        let mut best = if near.1.abs() < far.1.abs() { near } else { far };
-        while (b.0 - a.0).abs() > LOAD_FOUND && best.1.abs() > LOAD_FOUND {
-            let between = b.0 - b.1 * (b.0 - a.0) / (b.1 - a.1);
-            let next = miss(self, between.exp())?;
-            let place = (next.0, next.1);
-            if next.1.abs() < best.1.abs() {
-                best = next;
-            } else if place.0 == b.0 || place.0 == a.0 {
-                break;
-            }
-            if place.1 * b.1 < 0.0 {
-                a = b;
-            } else {
-                a.1 *= 0.5;
-            }
-            b = place;
-        }
-        Ok(best.2)
     }
 }

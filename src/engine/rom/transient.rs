@@ -8,7 +8,7 @@ use super::error::{ModelFileError, damaged};
 use super::snapshots;
 use super::sound::{domain, entries};
 use super::window::{Rounding, WindowEntry, read_deformation, read_window, shapes, write_window};
-use crate::solver::discrete::grid::{ContactGrid, GridSpec};
+use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::Problem;
 use crate::solver::full::transient::{Frame, Inputs};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
@@ -49,7 +49,7 @@ struct TransientModel {
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Start {
-    /// Radius, speed, load, modulus, viscosity and pressure–viscosity coefficient of a line contact.
+    /// Radius, speed, load, modulus, viscosity and pressure–viscosity coefficient.
     point: [f64; 6],
     sliding: Sliding,
     inputs: Inputs,
@@ -85,7 +85,7 @@ pub(super) fn encode(model: &TrajectoryModel) -> Option<Vec<u8>> {
     let TrajectoryDomain { reference, radius, speed, load, step, .. } = domain;
     writer.seal(&Heading {
         kind: ModelKind::Transient,
-        contact: ContactKind::Line,
+        contact: window.grid.kind(),
         title,
         domain: reference,
         model: &TransientModel {
@@ -138,8 +138,10 @@ pub(super) fn decode(contents: &Contents<'_>) -> Result<TrajectoryModel, ModelFi
 
     // Sizes are checked against the file size before anything is built.
     let nodes = match grid {
-        GridSpec::Graded { registered: true, .. } | GridSpec::Plane(_) => return Err(damaged("grid")),
-        GridSpec::Uniform { .. } | GridSpec::Graded { .. } | GridSpec::Following { .. } => entries(&grid)?,
+        GridSpec::Graded { registered: true, .. } => return Err(damaged("grid")),
+        GridSpec::Uniform { .. } | GridSpec::Graded { .. } | GridSpec::Following { .. } | GridSpec::Plane(_) => {
+            entries(&grid)?
+        }
     };
     if nodes > contents.bytes {
         return Err(damaged("grid"));
@@ -148,7 +150,13 @@ pub(super) fn decode(contents: &Contents<'_>) -> Result<TrajectoryModel, ModelFi
     if !shapes(contents, 0).into_iter().all(fits) {
         return Err(damaged("bases"));
     }
-    let grid = ContactGrid::Line(grid.line()?);
+    let grid = grid.build()?;
+    let kind = grid.kind();
+    if domain.reference.contact != kind || kind == ContactKind::Point && frame != Frame::Fixed {
+        return Err(damaged("its domain"));
+    }
+    // Reduced models of point contacts approximate either kind of cavitation by a penalty.
+    let cavitation = if kind == ContactKind::Point { Cavitation::Penalty } else { cavitation };
     let counts: Vec<usize> = windows.iter().map(|window| window.snapshots).collect();
     let mut snapshots = snapshots::read(contents, &counts).ok_or(damaged("cavitation"))?.into_iter();
     let sound_fronts = |fronts: &[usize]| {
@@ -188,7 +196,7 @@ pub(super) fn decode(contents: &Contents<'_>) -> Result<TrajectoryModel, ModelFi
     let of_starts = of_starts.ok_or(damaged("beginnings of its trainings"))?;
     let start = |(start, own): (Start, faer::RowRef<'_, f64>)| {
         let Start { point, sliding, inputs, duration, h_0, fronts } = start;
-        let point = OperatingPoint::from_quantities(ContactKind::Line, point, sliding);
+        let point = OperatingPoint::from_quantities(kind, point, sliding);
         let finite = h_0.is_finite() && sliding.slide_to_roll_ratio.is_finite() && sound_fronts(&fronts);
         let driven = duration.is_finite() && duration >= 0.0 && inputs.check(duration).is_ok();
         let coefficients = own.iter().copied().collect();

@@ -3,15 +3,15 @@
 use super::container::VERSION;
 use super::{Catalogue, ModelFileError, ModelKind, SavedModel};
 use crate::engine::{bytes_of, model_file};
-use crate::solver::discrete::grid::GridSpec;
+use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
 use crate::solver::full::transient::{
     Frame, Inputs, Interpolation, Keep, Quantity, Signal, Trajectory, Transient, march, solve,
 };
-use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::{Cavitation, Lubricant};
 use crate::solver::reduced::transient::{ReducedMarch, TrajectoryModel};
 use crate::solver::reduced::{Sampling, Scheme};
-use crate::solver::training::{LocalBases, TrajectoryTraining, train_trajectories};
+use crate::solver::training::{LocalBases, ResponseTraining, TrajectoryTraining, train_responses, train_trajectories};
 use std::sync::Arc;
 
 fn to_bytes(model: &TrajectoryModel) -> Result<Vec<u8>, ModelFileError> {
@@ -154,4 +154,31 @@ fn contradicting_parts_are_refused_despite_a_valid_hash() {
     let mut loud = (*model).clone();
     loud.title.push_str("\u{1b}[2J");
     assert!(!from_bytes(&to_bytes(&loud).unwrap()).unwrap().title.contains('\u{1b}'));
+}
+
+#[test]
+fn a_model_of_a_circular_contact_is_read_as_it_was_written() {
+    let point = OperatingPoint {
+        kind: ContactKind::Point,
+        radius_m: 0.01,
+        speed_m_per_s: 0.26,
+        load: 4.8,
+        viscosity_pa_s: 0.04,
+        alpha_per_pa: 2e-8,
+        ..OperatingPoint::TABLE_4_2
+    };
+    let lubricant = Lubricant { cavitation: Cavitation::Complementarity, ..Lubricant::default() };
+    let grid = PointGridSpec::uniform(0.1, 0.1, (-3.0, 1.8, -1.6)).build().unwrap();
+    let training =
+        ResponseTraining { load: (0.9, 1.1), speed: (0.9, 1.1), modes: 25, step: 0.02, ..ResponseTraining::default() };
+    let model = Arc::new(train_responses(&grid, point, lubricant, &training, &()).unwrap());
+    let bytes = to_bytes(&model).unwrap();
+    let read = from_bytes(&bytes).unwrap();
+    assert!(to_bytes(&read).unwrap() == bytes);
+    assert_eq!((read.frame, &read.domain, &read.starts), (model.frame, &model.domain, &model.starts));
+    let load = Inputs::load(Signal::Harmonic { amplitude: 0.05, period: 1.0 });
+    let transient = Transient { lubricant, ..Transient::new(point, load, 0.4, 0.02) };
+    let [own, other] = [&model, &read].map(|model| marched(model, &transient));
+    let off = own.difference(&other, Quantity::CentralFilm, (0.0, transient.duration)).unwrap().0;
+    assert!(own.finished() && off < 1e-7, "{off:e}");
 }

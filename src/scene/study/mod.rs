@@ -54,6 +54,7 @@ pub mod training;
 pub mod trajectory;
 pub mod transient;
 pub mod transition;
+pub mod vibration;
 
 pub use error_measures::OnlineScheme;
 pub use error_split::Contacts;
@@ -194,6 +195,8 @@ studies! {
     Transition(transition::Transition),
     /// Amplitude of the film thickness under a wavy surface, over its wavelength.
     Amplitude(amplitude::Amplitude),
+    /// Stiffness and damping of the film over frequency and speed.
+    Vibration(vibration::Vibration),
     /// Viscosity of the lubricant over shear stress (Fig. 3.10).
     FlowCurve(flow_curve::FlowCurve),
     /// Loss of information over the number of modes for a transient contact, in each frame (Fig. 4.5).

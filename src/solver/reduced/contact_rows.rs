@@ -1,6 +1,7 @@
 //! Scalars of a transient reduced state, computed from the nodes in the contact only.
 
-use crate::solver::discrete::grid::{LineGrid, dot};
+use crate::solver::discrete::grid::dot;
+use crate::solver::discrete::space::Grid;
 use crate::solver::full::transient::Conditions;
 use crate::solver::full::{Scalars, under_contact};
 use faer::linalg::matmul::matmul;
@@ -12,10 +13,12 @@ use faer::{Accum, ColMut, ColRef, Mat, MatRef, Par};
 /// memory read per step. The values there and at X = 0 are computed in double precision.
 pub(crate) struct ContactRows {
     modes: usize,
-    /// First of the nodes.
-    first: usize,
-    /// X of the nodes.
+    /// Nodes, X of the nodes, and Y²/2, the contribution of Y to the undeformed gap.
+    nodes: Vec<usize>,
     x: Vec<f64>,
+    across: Vec<f64>,
+    /// Y of the nodes.
+    y: Vec<f64>,
     /// V at the nodes, followed by K V: (2 · nodes) × modes, with the pressure modes V and the flexibility matrix K.
     coarse: Mat<f32>,
     /// The same in double precision, row-major.
@@ -28,26 +31,33 @@ pub(crate) struct ContactRows {
 
 impl ContactRows {
     /// Selects the rows of V and K V, both nodes × modes, on a grid.
-    pub fn new(grid: &LineGrid, pressure: MatRef<'_, f64>, deformation: MatRef<'_, f64>) -> Self {
-        let (first, weights) = grid.interpolation(0.0);
-        // The largest pressure lies in the region that is searched for the minimum film thickness.
-        let under = |&x: &f64| under_contact(x);
-        let from = grid.x.iter().position(under).map_or(first, |from| from.min(first));
-        let to = grid.x.iter().rposition(under).map_or(0, |last| last + 1).max(first + weights.len());
-        let (nodes, modes) = (to - from, pressure.ncols());
+    pub fn new(grid: &impl Grid, pressure: MatRef<'_, f64>, deformation: MatRef<'_, f64>) -> Self {
+        let (abscissae, ordinates) = grid.abscissae();
+        let place = |node: &usize| (abscissae[node / ordinates.len()], ordinates[node % ordinates.len()]);
+        let centre = grid.at_zero();
+        // The largest pressure lies in the region that is searched for the minimum film thickness. All its nodes are
+        // unknowns, except for those of a line contact around X = 0 that the interpolation needs.
+        let unknowns = (0..grid.unknowns()).map(|k| grid.node(k)).filter(|node| under_contact(place(node).0));
+        let mut chosen: Vec<usize> = unknowns.chain(centre.iter().map(|(node, _)| *node)).collect();
+        chosen.sort_unstable();
+        chosen.dedup();
+        let index = |node: usize| chosen.partition_point(|other| *other < node);
+        let (nodes, modes) = (chosen.len(), pressure.ncols());
         let at = |row: usize, k: usize| match row < nodes {
-            true => pressure[(from + row, k)],
-            false => deformation[(from + row - nodes, k)],
+            true => pressure[(chosen[row], k)],
+            false => deformation[(chosen[row - nodes], k)],
         };
         Self {
             modes,
-            first: from,
-            x: grid.x[from..to].to_vec(),
+            x: chosen.iter().map(|node| place(node).0).collect(),
+            y: chosen.iter().map(|node| place(node).1).collect(),
+            across: chosen.iter().map(|node| 0.5 * place(node).1.powi(2)).collect(),
             coarse: Mat::from_fn(2 * nodes, modes, |row, k| at(row, k) as f32),
             rows: (0..2 * nodes).flat_map(|row| (0..modes).map(move |k| at(row, k))).collect(),
-            centre: weights.iter().enumerate().map(|(m, w)| (first + m - from, *w)).collect(),
+            centre: centre.iter().map(|&(node, w)| (index(node), w)).collect(),
             coefficients: vec![0.0; modes],
             values: vec![0.0; 2 * nodes],
+            nodes: chosen,
         }
     }
 
@@ -60,25 +70,26 @@ impl ContactRows {
         matmul(values.as_mat_mut(), Accum::Replace, self.coarse.as_ref(), single.as_mat(), 1.0, Par::Seq);
         let nodes = self.x.len();
         let (pressures, deformations) = self.values.split_at(nodes);
-        let shape = |x: f64| 0.5 * at.curvature * x * x;
+        let shape = |k: usize| 0.5 * at.curvature * self.x[k] * self.x[k] + self.across[k];
         let (mut highest, mut thinnest) = ((0, f64::NEG_INFINITY), (0, f64::INFINITY));
-        for (k, ((&p, &d), &x)) in pressures.iter().zip(deformations).zip(&self.x).enumerate() {
-            let film = shape(x) + f64::from(d);
+        for (k, (&p, &d)) in pressures.iter().zip(deformations).enumerate() {
+            let film = shape(k) + f64::from(d);
             if f64::from(p) > highest.1 {
                 highest = (k, f64::from(p));
             }
-            if film < thinnest.1 && under_contact(x) {
+            if film < thinnest.1 && under_contact(self.x[k]) {
                 thinnest = (k, film);
             }
         }
         let (highest, thinnest) = (highest.0, thinnest.0);
         let row = |k: usize| dot(&self.rows[k * self.modes..(k + 1) * self.modes], coefficients);
-        let film = |k: usize| h_0 + shape(self.x[k]) + row(nodes + k) + bend(self.first + k);
+        let film = |k: usize| h_0 + shape(k) + row(nodes + k) + bend(self.nodes[k]);
         Scalars {
             h_c: self.centre.iter().map(|&(k, w)| w * film(k)).sum(),
             p_c: self.centre.iter().map(|&(k, w)| w * row(k)).sum(),
             h_min: film(thinnest),
             x_h_min: self.x[thinnest],
+            y_h_min: self.y[thinnest],
             p_max: row(highest),
             x_p_max: self.x[highest],
             h_0,

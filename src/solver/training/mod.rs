@@ -30,6 +30,9 @@ mod one_thread;
 mod plan;
 #[cfg(test)]
 mod point_tests;
+pub(crate) mod responses;
+#[cfg(test)]
+mod responses_tests;
 #[cfg(test)]
 mod resume_tests;
 mod rows;
@@ -58,6 +61,7 @@ pub use local_bases::LocalBases;
 pub use observer::TrainingObserver;
 pub use one_thread::on_one_thread;
 pub use plan::{random_points, random_points_while};
+pub use responses::{ResponseBasis, ResponseTraining, train_responses};
 pub use rows::with_rows;
 pub use search::{BadPoint, Search};
 pub use spec::{EVIDENCE, Indicator, Plan, TrainingSpec, WindowSpec, Windows};

@@ -41,9 +41,9 @@ pub(in crate::scene::study) fn check(experiment: &Experiment) -> Checked {
 }
 
 /// Refuses a contact that the full solver does not support in time, and names the field of the scene. Point contacts are
-/// supported, without models and without the mass balance of a film in a plane.
-pub(super) fn check_full(experiment: &Experiment, by_model: bool, balances: bool) -> Checked {
-    if experiment.contact == ContactKind::Line || by_model {
+/// supported, without the mass balance of a film in a plane.
+pub(super) fn check_full(experiment: &Experiment, balances: bool) -> Checked {
+    if experiment.contact == ContactKind::Line {
         return check(experiment);
     }
     Unsupported::check_lubricant(&experiment.lubricant).map_err(refused)?;

@@ -10,9 +10,9 @@ use crate::scene::grid::Grid;
 use crate::scene::method::ModelSource;
 use crate::scene::written::is_default;
 use crate::solver::full::transient::{Frame, Inputs, Scheme, Signal, TimeStep, Transient};
-use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::reduced::tpwl::{Selection, Weighting};
-use crate::solver::training::{LocalBases, TrajectoryTraining};
+use crate::solver::training::{LocalBases, ResponseTraining, TrajectoryTraining};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -34,7 +34,7 @@ pub struct TransientStudy {
     /// Time step of all marches.
     pub time_step: TimeStep,
     /// Prescribed rigid-body separation: H₀ of the start plus this signal minus 1, in units of a²/R. The load is then a
-    /// result, in the column `load` of the series. Needs the full solver.
+    /// result, in the column `load` of the series. Linearised models do not support it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub separation: Option<Signal>,
     /// Features of the surfaces that move through the contact. They need the full solver.
@@ -105,6 +105,10 @@ pub struct ReducedTransient {
     /// Local bases along the trainings. If absent, one basis covers all states.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub local: Option<LocalBases>,
+    /// Training of a circular contact, from linear responses and one march. It replaces the trainings of the study and
+    /// the settings above.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub responses: Option<ResponseTraining>,
 }
 
 /// Trajectory-piecewise-linear models of a transient contact, (4.27): trained in the study, then marched along all
@@ -130,7 +134,7 @@ pub struct LinearisedTransient {
 impl Default for ReducedTransient {
     /// Returns a loss of 1e-6 and two equations per mode.
     fn default() -> Self {
-        Self { model: None, loss: millionth(), rows_per_mode: two(), seed: one(), local: None }
+        Self { model: None, loss: millionth(), rows_per_mode: two(), seed: one(), local: None, responses: None }
     }
 }
 
@@ -200,19 +204,49 @@ impl ReducedTransient {
         self.model == Some(ModelSource::Embedded)
     }
 
-    /// Returns the training of the model; `None` if a saved model is given.
+    /// Returns the training of the model from full marches; `None` if a saved model is given, or if the model is of a
+    /// circular contact.
     pub fn training(&self) -> Option<TrajectoryTraining> {
-        let &Self { ref model, loss, rows_per_mode, seed, local } = self;
-        model.is_none().then(|| TrajectoryTraining { loss, rows_per_mode, seed, local, ..Default::default() })
+        let &Self { ref model, loss, rows_per_mode, seed, local, responses } = self;
+        (model.is_none() && responses.is_none()).then(|| TrajectoryTraining {
+            loss,
+            rows_per_mode,
+            seed,
+            local,
+            ..Default::default()
+        })
     }
 
-    fn check(&self, grid: &Grid) -> Checked {
+    fn check(&self, experiment: &Experiment) -> Checked {
+        let (grid, kind) = (&experiment.grid, experiment.contact);
         if self.model.is_some() {
             if *self != (Self { model: self.model.clone(), ..Self::default() }) {
-                let problem = "must be the only field: loss, rows_per_mode, seed and local belong to a training";
+                let problem = "must be the only field: all other fields belong to a training";
                 return Err(refuse("study.reduced.model", problem));
             }
             return Ok(());
+        }
+        if let Some(responses) = &self.responses {
+            if *self != (Self { responses: self.responses, ..Self::default() }) {
+                let problem = "must be the only field: it has its own numbers of modes and rows";
+                return Err(refuse("study.reduced.responses", problem));
+            }
+            if kind == ContactKind::Line {
+                return Err(refuse(
+                    "study.reduced.responses",
+                    "is for point contacts; leave it out for a line contact",
+                ));
+            }
+            if !matches!(grid, Grid::Plane(_)) {
+                return Err(refuse("grid", "must be Plane for a transient reduced model of a circular contact"));
+            }
+            return responses
+                .check()
+                .map_err(|problem| refuse("study.reduced.responses", format!("is refused: {problem}")));
+        }
+        if kind == ContactKind::Point {
+            let problem = "must hold `responses: ()` or a model, because the contact is a point contact";
+            return Err(refuse("study.reduced", problem));
         }
         if !matches!(grid, Grid::Uniform { .. } | Grid::GradedNodes { registered: false, .. }) {
             return Err(refuse(
@@ -302,7 +336,7 @@ impl TransientStudy {
     /// With the first invalid field.
     pub(super) fn check_with(&self, experiment: &Experiment) -> Checked {
         let by_model = self.reduced.is_some() || self.linearised.is_some();
-        coverage::check_full(experiment, by_model, self.mass_between.is_some())?;
+        coverage::check_full(experiment, self.mass_between.is_some())?;
         count("study.frames (how many)", self.frames.len(), 1, 4)?;
         if (1..self.frames.len()).any(|i| self.frames[..i].contains(&self.frames[i])) {
             return Err(refuse("study.frames", "must not name a frame twice: results are named by it"));
@@ -330,18 +364,25 @@ impl TransientStudy {
         surfaces::check(&self.surfaces)?;
         self.check_contacts(experiment)?;
         self.check_marches(experiment)?;
-        let full_only = [
-            ("study.surfaces", !self.surfaces.is_empty()),
-            ("study.scheme", self.scheme == Scheme::Characteristic),
-            ("study.separation", self.separation.is_some()),
-        ];
+        let full_only =
+            [("study.surfaces", !self.surfaces.is_empty()), ("study.scheme", self.scheme == Scheme::Characteristic)];
         if let Some((field, _)) = full_only.into_iter().find(|(_, given)| *given && by_model) {
             return Err(refuse(field, "needs the full solver; leave it out, or leave out reduced and linearised"));
+        }
+        if self.separation.is_some() && self.linearised.is_some() {
+            return Err(refuse("study.separation", "is not supported by linearised models; leave out linearised"));
         }
         if by_model {
             coverage::check_models(experiment)?;
         }
-        self.reduced.iter().try_for_each(|reduced| reduced.check(&experiment.grid))?;
+        self.reduced.iter().try_for_each(|reduced| reduced.check(experiment))?;
+        if experiment.contact == ContactKind::Point && self.linearised.is_some() && self.responses().is_none() {
+            let problem = "needs `reduced: (responses: ())` for a point contact: both models have one basis";
+            return Err(refuse("study.linearised", problem));
+        }
+        if self.responses().is_some() && self.linearised.as_ref().is_some_and(|own| own.points.is_some()) {
+            return Err(refuse("study.linearised.points", "is for line contacts; give the tolerance of the selection"));
+        }
         self.linearised.iter().try_for_each(|linearised| linearised.check(&self.frames))
     }
 

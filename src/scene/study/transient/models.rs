@@ -11,9 +11,9 @@ use crate::scene::notice::Notice;
 use crate::scene::outcome::Findings;
 use crate::scene::table::Table;
 use crate::solver::full::transient::{Frame, FullMarch, Keep, Marching, Trajectory, Transient};
-use crate::solver::reduced::tpwl::{TpwlError, TpwlMarch, TpwlModel, TpwlTraining, Weighting};
+use crate::solver::reduced::tpwl::{Selection, TpwlError, TpwlMarch, TpwlModel, TpwlTraining, Weighting};
 use crate::solver::reduced::transient::{ReducedMarch, TrajectoryModel};
-use crate::solver::training::{TrajectoryTraining, on_one_thread, train_trajectories};
+use crate::solver::training::{ResponseBasis, ResponseTraining, TrajectoryTraining, on_one_thread, train_trajectories};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -154,12 +154,16 @@ impl Runner<'_, '_> {
     pub fn models(&self, own: Trajectory) -> Result<Vec<Model>, RunError> {
         let TransientStudy { reduced, linearised, .. } = self.study;
         let frame = own.transient.frame;
-        let linearised = linearised.as_ref().filter(|_| frame == Frame::Fixed);
+        let linearised: Option<&LinearisedTransient> = linearised.as_ref().filter(|_| frame == Frame::Fixed);
         let mut models = Vec::new();
         if let Some(saved) = self.saved.as_ref().filter(|saved| saved.frame == frame) {
             let model = Model::saved(Arc::clone(saved));
             (self.tell)(Row::Model(model.clone()));
             models.push(model);
+        }
+        if let Some(responses) = reduced.as_ref().and_then(|reduced| reduced.responses) {
+            self.from_responses(&responses, &own.transient, linearised, &mut models)?;
+            return Ok(models);
         }
         let training = reduced.as_ref().and_then(ReducedTransient::training);
         if training.is_none() && linearised.is_none() {
@@ -169,7 +173,7 @@ impl Runner<'_, '_> {
         let trainings = Arc::new(if trained.is_empty() { vec![own] } else { trained });
         // The linearised model is trained first because it takes less time.
         if let Some(linearised) = linearised {
-            self.linearised(linearised, frame, &trainings, &mut models)?;
+            self.linearised(linearised, &trainings, &mut models)?;
         }
         if let Some(training) = training {
             models.push(self.reduced(&training, frame, &trainings)?);
@@ -199,6 +203,57 @@ impl Runner<'_, '_> {
         Ok(trained)
     }
 
+    /// Trains the models of a circular contact around the reference contact of a march.
+    fn from_responses(
+        &self,
+        training: &ResponseTraining,
+        own: &Transient,
+        linearised: Option<&LinearisedTransient>,
+        models: &mut Vec<Model>,
+    ) -> Result<(), RunError> {
+        let begun = Stopwatch::start();
+        let basis = Arc::new(self.responses(training, own)?);
+        for selection in linearised.iter().flat_map(|linearised| linearised.selections()) {
+            let (basis, asked) = (Arc::clone(&basis), linearised.cloned().unwrap_or_default());
+            let train = move || basis.linearised(asked.modes, selection);
+            let model = Arc::new(on_one_thread(self.setting.observer, train)??);
+            self.push_linearised(model, linearised, selection, begun.seconds(), models);
+        }
+        let model = basis.reduced(self.setting.observer)?;
+        let (name, wall_s) = (reduced_name(model.frame), begun.seconds());
+        let model = Model { name, frame: model.frame, kind: Kind::Reduced(Arc::new(model)), wall_s };
+        (self.tell)(Row::Model(model.clone()));
+        models.push(model);
+        Ok(())
+    }
+
+    /// Computes the basis of a circular contact around the reference contact of a march.
+    pub(super) fn responses(&self, training: &ResponseTraining, own: &Transient) -> Result<ResponseBasis, RunError> {
+        let grid = self.grid.point().ok_or_else(|| RunError::Study("responses need a point contact".to_owned()))?;
+        Ok(ResponseBasis::new(grid, own.point, own.lubricant, training, self.setting.observer)?)
+    }
+
+    /// Reports the linearised model of a rule. Its name contains the rule if there are several.
+    fn push_linearised(
+        &self,
+        model: Arc<TpwlModel>,
+        linearised: Option<&LinearisedTransient>,
+        selection: Selection,
+        wall_s: f64,
+        models: &mut Vec<Model>,
+    ) {
+        let Some(linearised) = linearised else { return };
+        let label = linearised.label(selection);
+        let mut name = format!("{}.tpwl", Frame::Fixed.name());
+        if !linearised.further.is_empty() {
+            name = format!("{name}.{label}");
+        }
+        let kind = Kind::Linearised { model, label, weightings: linearised.weightings.clone() };
+        let model = Model { name, frame: Frame::Fixed, kind, wall_s };
+        (self.tell)(Row::Model(model.clone()));
+        models.push(model);
+    }
+
     fn reduced(
         &self,
         training: &TrajectoryTraining,
@@ -217,7 +272,6 @@ impl Runner<'_, '_> {
     fn linearised(
         &self,
         linearised: &LinearisedTransient,
-        frame: Frame,
         trainings: &Arc<Vec<Trajectory>>,
         models: &mut Vec<Model>,
     ) -> Result<(), RunError> {
@@ -233,15 +287,7 @@ impl Runner<'_, '_> {
                 }
             })??);
             first.get_or_insert_with(|| Arc::clone(&model));
-            let label = linearised.label(selection);
-            let mut name = format!("{}.tpwl", frame.name());
-            if !linearised.further.is_empty() {
-                name = format!("{name}.{label}");
-            }
-            let kind = Kind::Linearised { model, label, weightings: linearised.weightings.clone() };
-            let model = Model { name, frame, kind, wall_s: begun.seconds() };
-            (self.tell)(Row::Model(model.clone()));
-            models.push(model);
+            self.push_linearised(model, Some(linearised), selection, begun.seconds(), models);
         }
         Ok(())
     }

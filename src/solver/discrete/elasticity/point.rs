@@ -290,6 +290,37 @@ impl PointFlexibility {
             }
         }
     }
+
+    /// Computes Kᵀ V for the node array V. The result is zero at nodes without pressure.
+    pub fn apply_transposed(&self, values: &[f64], out: &mut [f64], scratch: &mut PointScratch) {
+        let (nx, ny, m) = (self.nx, self.ny, self.ny - 1);
+        let (length, frequencies) = (self.convolution.len(), self.convolution.frequencies());
+        let PointScratch { real, pressure: spectra, deformation: folded, work } = scratch;
+        real.resize(ny * length, 0.0);
+        spectra.resize(ny * frequencies, Complex64::default());
+        folded.resize(ny * frequencies, Complex64::default());
+        work.resize(ny * self.convolution.work(), Complex64::default());
+        let work = &mut work[..self.convolution.work()];
+        for (j, (signal, spectrum)) in
+            real.chunks_exact_mut(length).zip(spectra.chunks_exact_mut(frequencies)).enumerate()
+        {
+            signal.fill(0.0);
+            signal[..nx].iter_mut().enumerate().for_each(|(i, value)| *value = values[i * ny + j]);
+            self.convolution.forward(signal, spectrum, work);
+        }
+        for (k, matrix) in self.spectrum.chunks_exact(ny * m).enumerate() {
+            for (cell, column) in matrix.chunks_exact(ny).enumerate() {
+                let products = column.iter().enumerate().map(|(j, kernel)| kernel * spectra[j * frequencies + k]);
+                folded[cell * frequencies + k] = products.sum();
+            }
+        }
+        out.fill(0.0);
+        let signal = &mut real[..length];
+        for (cell, spectrum) in folded.chunks_exact_mut(frequencies).take(m).enumerate() {
+            self.convolution.inverse(spectrum, signal, work);
+            (1..nx - 1).for_each(|i| out[i * ny + cell + 1] = signal[i]);
+        }
+    }
 }
 
 #[cfg(test)]
@@ -340,6 +371,12 @@ mod tests {
         for (a, fast) in fast.iter().enumerate() {
             let direct: f64 = (0..n).map(|b| grid.flexibility.entry(a, b) * p[b]).sum();
             assert!((fast - direct).abs() < 1e-12, "{a}: {fast} against {direct}");
+        }
+        let values: Vec<f64> = (0..n).map(|k| (k * 53 % 23) as f64 / 23.0).collect();
+        grid.flexibility.apply_transposed(&values, &mut fast, &mut scratch);
+        for (b, fast) in fast.iter().enumerate() {
+            let direct: f64 = (0..n).map(|a| grid.flexibility.entry(a, b) * values[a]).sum();
+            assert!((fast - direct).abs() < 1e-12, "transposed, {b}: {fast} against {direct}");
         }
         for j in 0..ny {
             for l in 1..ny {

@@ -75,6 +75,22 @@ impl BlockTridiagonal {
         })
     }
 
+    /// Replaces the matrix, which must not be factorised yet, by its transpose.
+    pub fn transpose(&mut self) {
+        let (size, square) = (self.size, self.size * self.size);
+        for block in 1..self.blocks {
+            let (upper, lower) = (&mut self.upper[(block - 1) * square..], &mut self.lower[block * square..]);
+            upper[..square].swap_with_slice(&mut lower[..square]);
+        }
+        for entries in [&mut self.diagonal, &mut self.lower, &mut self.upper] {
+            for block in entries.chunks_exact_mut(square.max(1)) {
+                for column in 1..size {
+                    (0..column).for_each(|row| block.swap(column * size + row, row * size + column));
+                }
+            }
+        }
+    }
+
     /// Factorises in place. Calls `go_on` every few milliseconds. Returns `false` if `go_on` did; then the factors
     /// are incomplete.
     pub fn factorise(&mut self, go_on: impl Fn() -> bool) -> bool {
@@ -304,8 +320,9 @@ mod tests {
                 if (i / size).abs_diff(j / size) > 1 { 0.0 } else { value + boost }
             };
             let mut matrix = BlockTridiagonal::default();
-            // The second run reuses the memory of the first one.
-            for _ in 0..2 {
+            // Later runs reuse the memory of the first one.
+            for transposed in [false, false, true] {
+                let entry = |i: usize, j: usize| if transposed { entry(j, i) } else { entry(i, j) };
                 matrix.reset(size, blocks);
                 let filled = matrix.fill(|row| {
                     for c in 0..size {
@@ -323,6 +340,11 @@ mod tests {
                     Some(())
                 });
                 assert!(filled.is_some());
+                if transposed {
+                    // The matrix was filled with the transpose of the one that is solved.
+                    matrix.transpose();
+                }
+                let entry = |i: usize, j: usize| if transposed { entry(j, i) } else { entry(i, j) };
                 let n = size * blocks;
                 let want: Vec<f64> = (0..n).map(|i| (i as f64).cos()).collect();
                 let mut b: Vec<f64> = (0..n).map(|i| (0..n).map(|j| entry(i, j) * want[j]).sum()).collect();

@@ -33,7 +33,18 @@ impl Factors for PlaneMatrix {
 impl PlaneMatrix {
     /// Assembles and factorises the matrix for the given equations and their scaling. Returns `false` if `go_on`
     /// stopped it. K has no columns for unknowns that are `fractions`.
-    pub fn build(
+    pub fn build(&mut self, grid: &PointGrid, rows: &ScaledRows<'_>, go_on: impl Fn() -> bool + Sync) -> bool {
+        self.fill(grid, rows, &go_on) && self.matrix.factorise(go_on)
+    }
+
+    /// Assembles and factorises the transpose of the same matrix.
+    pub fn build_transposed(&mut self, grid: &PointGrid, rows: &ScaledRows<'_>) -> bool {
+        let filled = self.fill(grid, rows, || true);
+        self.matrix.transpose();
+        filled && self.matrix.factorise(|| true)
+    }
+
+    fn fill(
         &mut self,
         grid: &PointGrid,
         &ScaledRows { rows, scaling, fractions, .. }: &ScaledRows<'_>,
@@ -101,7 +112,7 @@ impl PlaneMatrix {
             }
             Some(())
         });
-        assembled.is_some() && self.matrix.factorise(go_on)
+        assembled.is_some()
     }
 }
 

@@ -95,7 +95,9 @@ pub struct LinearResponse<S: ResponseSpace> {
 }
 
 /// Amplitudes of a periodic change.
-pub(super) struct Amplitudes {
+pub struct Amplitudes {
+    /// Pressure p, node array.
+    pub pressure: Vec<Complex64>,
     /// Deformation K p + h₀, node array.
     pub film: Vec<Complex64>,
     /// h₀.
@@ -117,13 +119,19 @@ impl<S: ResponseSpace> LinearResponse<S> {
         if system.space.grid().continues() {
             return Err(ResponseError::Unsupported("contacts whose pressure ends within the domain"));
         }
-        let options = SolveOptions::<S::Control>::default();
         system.set_pressure(&problem, &solution.pressure);
         system.set_h_0(solution.scalars.h_0);
+        Ok(Self::around(system, problem))
+    }
+
+    /// Creates the linearised system around the state of a system, which must solve the problem with the steady rows of
+    /// its space.
+    pub(in crate::solver::full) fn around(mut system: System<S>, problem: Problem) -> Self {
+        let options = SolveOptions::<S::Control>::default();
         system.begin(&problem, &options);
         system.evaluate(&problem, options.penalty);
-        let (nodes, unknowns) = (solution.pressure.len(), system.rows.len());
-        Ok(Self {
+        let (nodes, unknowns) = (system.pressure.len(), system.rows.len());
+        Self {
             system,
             problem,
             rows: vec![ComplexRow::default(); unknowns],
@@ -132,7 +140,25 @@ impl<S: ResponseSpace> LinearResponse<S> {
             krylov: Gmres::default(),
             parts: [0, 1].map(|_| vec![0.0; nodes]),
             deformations: [0, 1].map(|_| vec![0.0; nodes]),
-        })
+        }
+    }
+
+    /// Computes the responses to a change of the load by 1 and to a change of the speed of the flow by 1, both in the
+    /// units of the equations, which have the current `speed` > 0.
+    ///
+    /// # Errors
+    /// If a linear solve stalls.
+    pub fn to_load_and_speed(&mut self, omega: f64, speed: f64) -> Result<[Amplitudes; 2], ResponseError> {
+        self.set_frequency(omega, TimeDerivative::Exact);
+        let to_load = self.solve(omega, |_| Complex64::ZERO, 1.0)?;
+        let System { space, nodes, active, .. } = &self.system;
+        let convection = |k: usize| {
+            let (stencil, geometry) = space.row(k);
+            let sum = geometry.upwind.iter().zip(stencil).map(|(weight, node)| weight * nodes[node].flow).sum::<f64>();
+            if active.holds() && active.ruptured[k] { 0.0 } else { -sum / speed }
+        };
+        let forced: Vec<f64> = (0..self.rows.len()).map(convection).collect();
+        Ok([to_load, self.solve_forced(omega, |k| forced[k].into(), 0.0)?])
     }
 
     /// Returns the steady problem.
@@ -182,15 +208,30 @@ impl<S: ResponseSpace> LinearResponse<S> {
         gap: impl Fn(usize) -> Complex64,
         load: f64,
     ) -> Result<Amplitudes, ResponseError> {
+        let by_gap = |k: usize| {
+            let (stencil, _) = self.system.space.row(k);
+            self.rows[k].d_h[..S::NODES].iter().zip(stencil).map(|(d, node)| d * gap(node)).sum()
+        };
+        let forced: Vec<Complex64> = (0..self.rows.len()).map(by_gap).collect();
+        self.solve_forced(omega, |k| forced[k], load)
+    }
+
+    /// Solves for the change under a change `forced` of the value of each unknown's equation and a load that changes
+    /// by `load`.
+    fn solve_forced(
+        &mut self,
+        omega: f64,
+        forced: impl Fn(usize) -> Complex64,
+        load: f64,
+    ) -> Result<Amplitudes, ResponseError> {
         let Self { system, rows, scaling, factors, krylov, parts, deformations, .. } = self;
         let System { space, scratch, .. } = system;
         let space = &*space;
         let (grid, weights) = (space.grid(), space.grid().weights());
         let unknowns = rows.len();
         let mut rhs = vec![0.0; 2 * unknowns + 2];
-        for (k, (row, s)) in rows.iter().zip(&*scaling).enumerate() {
-            let (stencil, _) = space.row(k);
-            let value: Complex64 = row.d_h[..S::NODES].iter().zip(stencil).map(|(d, node)| -s * d * gap(node)).sum();
+        for (k, s) in scaling.iter().enumerate() {
+            let value = -s * forced(k);
             (rhs[2 * k], rhs[2 * k + 1]) = (value.re, value.im);
         }
         rhs[2 * unknowns] = load;
@@ -234,8 +275,10 @@ impl<S: ResponseSpace> LinearResponse<S> {
             grid.deform(part, deformation, scratch);
         }
         let h_0 = Complex64::new(solution[2 * unknowns], solution[2 * unknowns + 1]);
-        let [re, im] = &*deformations;
-        Ok(Amplitudes { film: re.iter().zip(im).map(|(re, im)| Complex64::new(*re, *im) + h_0).collect(), h_0 })
+        let complex = |[re, im]: &[Vec<f64>; 2], shift: Complex64| {
+            re.iter().zip(im).map(|(re, im)| Complex64::new(*re, *im) + shift).collect()
+        };
+        Ok(Amplitudes { pressure: complex(parts, Complex64::ZERO), film: complex(deformations, h_0), h_0 })
     }
 }
 

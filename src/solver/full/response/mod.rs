@@ -7,6 +7,7 @@
 //! - the change of the film thickness by a wavy surface that moves through the contact, [`WaveResponse`];
 //! - stiffness and damping of the film, [`Dynamics`].
 
+mod adjoint;
 mod contact;
 mod derivative;
 mod dynamics;
@@ -19,10 +20,11 @@ mod tests;
 mod unsupported;
 mod wave;
 
+pub use adjoint::Adjoint;
 pub use contact::ContactResponse;
 pub use derivative::TimeDerivative;
 pub use dynamics::{Dynamics, Stiffness};
-pub use linear::{LinearResponse, ResponseError, ResponseSpace};
+pub use linear::{Amplitudes, LinearResponse, ResponseError, ResponseSpace};
 pub use maxwell::Maxwell;
 pub use unsupported::check_lubricant;
 pub use wave::{

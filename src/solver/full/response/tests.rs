@@ -1,7 +1,8 @@
 use super::*;
 use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
-use crate::solver::discrete::space::LineSpace;
-use crate::solver::full::{FullSolver, PointSolver, Solution, Start};
+use crate::solver::discrete::space::{LineSpace, PlaneSpace};
+use crate::solver::full::transient::{Conditions, Frame, FullMarch, Input, Inputs, Marching, Transient};
+use crate::solver::full::{FullSolver, PointSolver, Problem, Solution, Start};
 use crate::solver::physics::contact::{ContactKind, Moes, MoesRequest, OperatingPoint, si_from_moes};
 use crate::solver::physics::lubricant::{Cavitation, Lubricant, ShearLaw};
 use std::f64::consts::TAU;
@@ -164,4 +165,57 @@ fn the_parameters_of_the_published_curves_are_theirs() {
     assert!((line - 0.5 * 31.622_776 / 3.316_624_8).abs() < 1e-6, "{line}");
     let point = reduction_parameter(ContactKind::Point, moes, 2.0);
     assert!((point - 2.0 * (100.0f64 / 11.0).sqrt()).abs() < 1e-12);
+}
+
+/// Returns a march at a steady circular contact, and the conditions with a load and a speed.
+fn circle(input: Input) -> (FullMarch<PlaneSpace>, Conditions, Problem) {
+    let point = si_from_moes(&MoesRequest::new(ContactKind::Point, 30.0, 6.0)).unwrap();
+    let grid = PointGridSpec::uniform(0.1, 0.1, (-3.0, 1.8, -1.6)).build().unwrap();
+    let lubricant = Lubricant { cavitation: Cavitation::Complementarity, ..Lubricant::default() };
+    let transient = Transient { lubricant, ..Transient::new(point, Inputs::default(), 1.0, 0.01) };
+    let (mut march, problem) = (FullMarch::on(grid, &transient).unwrap(), transient.problem().unwrap());
+    let at = Frame::Fixed.conditions(&problem, 0.0, input).unwrap();
+    march.rest(&at, &()).unwrap();
+    (march, at, problem)
+}
+
+#[test]
+fn slow_responses_to_load_and_speed_are_differences_of_steady_contacts() {
+    let own = Input { load: 1.1, speed: 0.9, ..Input::REFERENCE };
+    let (march, at, problem) = circle(own);
+    let [to_load, to_speed] = march.response(&at).to_load_and_speed(1e-6, at.speed).unwrap();
+    let step = 1e-4;
+    let heavier = [own.load - step, own.load + step].map(|load| Input { load, ..own });
+    let faster = [own.speed - step, own.speed + step].map(|speed| Input { speed, ..own });
+    for (response, inputs, reference) in [(to_load, heavier, problem.load), (to_speed, faster, 1.0)] {
+        let [(low, _, _), (high, _, _)] = inputs.map(circle);
+        let slope = |a: f64, b: f64| (b - a) / (2.0 * step);
+        let h_0 = slope(low.pressure().1, high.pressure().1);
+        assert!((reference * response.h_0.re / h_0 - 1.0).abs() < 1e-3, "{} against {h_0}", response.h_0);
+        // The front moves by whole nodes, so that single pressures differ.
+        let (mut off, mut size) = (0.0, 0.0);
+        for ((low, high), own) in low.pressure().0.iter().zip(high.pressure().0).zip(&response.pressure) {
+            off += (slope(*low, *high) - reference * own.re).powi(2);
+            size += slope(*low, *high).powi(2);
+        }
+        assert!(off < 1e-4 * size, "{off} of {size}");
+    }
+}
+
+#[test]
+fn the_adjoint_gives_the_products_of_responses() {
+    // With (A + B K)ᵀ z + w ζ = v and (B 1)ᵀ z = l: v·p + l h₀ = ζ for the response (p, h₀) to a load of 1. The response
+    // keeps P = 0 in the cavitated region, where the adjoint has a stiff penalty.
+    let (march, at, _) = circle(Input::REFERENCE);
+    let [to_load, _] = march.response(&at).to_load_and_speed(1e-7, at.speed).unwrap();
+    let mut adjoint = march.adjoint(&at, 1e9).unwrap();
+    let grid = PointGridSpec::uniform(0.1, 0.1, (-3.0, 1.8, -1.6)).build().unwrap();
+    let v: Vec<f64> =
+        (0..grid.unknowns()).map(|k| (k * 7919 % 1013) as f64 / 1013.0 * grid.weights[grid.node(k)]).collect();
+    for l in [0.0, 0.7] {
+        let (_, zeta) = adjoint.solve(&v, l).unwrap();
+        let product: f64 = v.iter().enumerate().map(|(k, v)| v * to_load.pressure[grid.node(k)].re).sum();
+        let wanted = product + l * to_load.h_0.re;
+        assert!((zeta / wanted - 1.0).abs() < 1e-5, "{zeta} against {wanted}");
+    }
 }

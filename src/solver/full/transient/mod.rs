@@ -13,6 +13,7 @@ mod history;
 mod march;
 mod mass;
 mod pace;
+mod response;
 mod signal;
 mod space;
 mod spline;

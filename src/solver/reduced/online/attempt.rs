@@ -84,7 +84,7 @@ pub(super) fn attempt(
     };
     let tolerance = options.tolerance * share_of_tolerance(problem, start.h_c, options);
     let stop = Stop::new(tolerance, options.max_newton.min(limit));
-    let case = Case { problem, scale, curvature: 1.0, penalty, stop };
+    let case = Case { problem, scale, curvature: 1.0, penalty, prescribed: false, stop };
     let Guess { coefficients: known, fronts, theta, .. } = start;
     operators.begin(&case, &Start { window, modes: known.len(), fronts: Some(fronts), theta });
     operators.carry_load(problem, scale, &mut coefficients);

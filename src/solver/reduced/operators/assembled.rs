@@ -102,10 +102,14 @@ impl Operators {
         dot(&self.system.lift, coefficients)
     }
 
+    /// Returns the load that coefficients carry on a grid of scale 1.
+    pub fn carried(&self, coefficients: &[f64]) -> f64 {
+        self.system.carried(coefficients)
+    }
+
     /// Scales the coefficients such that they carry the load on a grid of scale s.
     pub fn carry_load(&self, problem: &Problem, scale: f64, coefficients: &mut [f64]) {
-        let carried: f64 = self.system.load_row.iter().zip(coefficients.iter()).map(|(l, c)| l * c).sum();
-        let factor = problem.load / (scale * carried);
+        let factor = problem.load / (scale * self.carried(coefficients));
         if factor.is_finite() && factor > 0.0 {
             coefficients.iter_mut().for_each(|c| *c *= factor);
         }

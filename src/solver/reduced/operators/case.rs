@@ -14,6 +14,8 @@ pub(crate) struct Case<'a> {
     pub curvature: f64,
     /// Penalty factor γ̄. With an active cavitation boundary it acts only on pressures in front of the centre.
     pub penalty: f64,
+    /// True if the rigid-body separation H₀ is given. The load is then a result.
+    pub prescribed: bool,
     /// Stopping criterion; parts may modify it.
     pub stop: Stop,
 }

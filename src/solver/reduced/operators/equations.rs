@@ -66,6 +66,9 @@ impl Equations {
                     part.equations(coefficients, Some(step.matrix.get_mut(..modes, ..modes)), &mut step.rhs[..modes]);
                 }
                 carry(load, coefficients, modes, (&mut step.matrix, &mut step.rhs));
+                if case.prescribed {
+                    hold(modes, (&mut step.matrix, &mut step.rhs));
+                }
                 if keep {
                     jacobian.copy_from(&step.matrix);
                 }
@@ -86,6 +89,9 @@ impl Equations {
                     (matrix[(r, modes)], rhs[r]) = (factor * film_column[r], -factor * values[r]);
                 }
                 carry(load, coefficients, values.len(), (matrix, rhs));
+                if case.prescribed {
+                    hold(values.len(), (matrix, rhs));
+                }
                 least.solve();
                 step.rhs.copy_from_slice(&least.rhs[..=modes]);
             }
@@ -93,6 +99,9 @@ impl Equations {
                 let bases = (of_jacobian.as_ref(), of_residual.as_ref());
                 reduce(bases, rows, (&mut least.matrix, &mut least.rhs));
                 carry(load, coefficients, of_jacobian.nrows(), (&mut least.matrix, &mut least.rhs));
+                if case.prescribed {
+                    hold(of_jacobian.nrows(), (&mut least.matrix, &mut least.rhs));
+                }
                 least.solve();
                 step.rhs.copy_from_slice(&least.rhs[..=modes]);
             }
@@ -120,7 +129,7 @@ impl Equations {
         }
         rhs[*active..modes].fill(0.0);
         let carried: f64 = load_row.iter().zip(coefficients).map(|(l, c)| case.scale * l * c).sum();
-        rhs[modes] = case.problem.load - carried;
+        rhs[modes] = if case.prescribed { 0.0 } else { case.problem.load - carried };
         step.solve_again();
         step.rhs.iter().all(|v| v.is_finite())
     }
@@ -153,4 +162,11 @@ fn carry(
         carried += scale * l * c;
     }
     (matrix[(last, load_row.len())], rhs[last]) = (0.0, load - carried);
+}
+
+/// Replaces row `last` of the equations: H₀, the last unknown, does not change.
+fn hold(last: usize, (matrix, rhs): (&mut Mat<f64>, &mut [f64])) {
+    matrix.row_mut(last).fill(0.0);
+    let unknown = matrix.ncols() - 1;
+    (matrix[(last, unknown)], rhs[last]) = (1.0, 0.0);
 }

@@ -161,8 +161,9 @@ impl Operators {
             parts.iter_mut().for_each(|part| part.jacobian(system, scale, exact));
         }
         sum += scale * deformation.missed(state.coefficients);
-        let carried: f64 = system.load_row.iter().zip(state.coefficients).map(|(l, c)| l * c).sum();
-        sum += (scale * carried - case.problem.load).powi(2);
+        if !case.prescribed {
+            sum += (scale * system.carried(state.coefficients) - case.problem.load).powi(2);
+        }
         sum.sqrt()
     }
 }

@@ -263,6 +263,11 @@ impl SampledSystem {
         }
     }
 
+    /// Returns the load that coefficients carry, per unit of the scale.
+    pub fn carried(&self, coefficients: &[f64]) -> f64 {
+        self.load_row.iter().zip(coefficients).map(|(l, c)| l * c).sum()
+    }
+
     /// Returns ρ̄H at the own nodes of all rows.
     pub fn flow(&self) -> impl Iterator<Item = f64> + '_ {
         self.stencils.iter().map(|stencil| self.nodes[stencil[CENTER]].flow)

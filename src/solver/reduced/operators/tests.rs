@@ -82,7 +82,7 @@ fn a_part_changes_node_laws_and_row_derivatives() {
     let problem = Problem::new(&known.point, model.domain.lubricant).unwrap();
     let scale = window.grid.scale(problem.moes);
     let stop = Stop::new(1e-8, 40);
-    let case = Case { problem: &problem, scale, curvature: 1.0, penalty: window.penalty, stop };
+    let case = Case { problem: &problem, scale, curvature: 1.0, penalty: window.penalty, prescribed: false, stop };
     let phases = Arc::new(Mutex::new(Vec::new()));
     let solved = |amplitude: f64| {
         let mut operators = Operators::new(window, usize::MAX, None, Flow::Newtonian);

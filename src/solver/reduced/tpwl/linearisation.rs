@@ -2,12 +2,10 @@
 //! to (4.26) are built.
 
 use super::space::{INPUTS, ReducedSpace, input_vector};
-use crate::solver::discrete::grid::{FIRST_UNKNOWN, dot};
+use crate::solver::discrete::grid::dot;
 use crate::solver::discrete::nodes::Nodes;
 use crate::solver::discrete::reynolds::generalized::PlaneGradient;
-use crate::solver::discrete::reynolds::line::Upstream;
 use crate::solver::discrete::reynolds::{CENTER, PENALTY};
-use crate::solver::discrete::space::{LineSpace, Space};
 use crate::solver::full::Problem;
 use crate::solver::full::transient::Input;
 use crate::solver::reduced::matrix_values;
@@ -67,23 +65,22 @@ pub struct Fields<'a> {
 
 impl Fields<'_> {
     fn nodes(&self, space: &ReducedSpace, problem: &Problem) -> Nodes {
-        Nodes::of(problem.laws(), &PlaneGradient::along_line(&space.grid.x), self.pressure, self.film)
+        // Newtonian contacts do not use the gradient.
+        Nodes::of(problem.laws(), &PlaneGradient::along_line(space.grid.abscissae().0), self.pressure, self.film)
     }
 
     /// Returns the load-balance residual w̄ π/2 − ∫P.
     fn load_defect(&self, space: &ReducedSpace, problem: &Problem) -> f64 {
-        problem.load * self.input.load - dot(&space.grid.weights, self.pressure)
+        problem.load * self.input.load - dot(space.grid.weights(), self.pressure)
     }
 }
 
-/// Tests weighted rows with Vᵀ and appends the load balance. `rows` belong to the unknowns, one column per right-hand
+/// Tests rows and appends the load balance. `rows` belong to the unknowns, one column per right-hand
 /// side.
 fn tested(space: &ReducedSpace, rows: MatRef<'_, f64>) -> Mat<f64> {
-    let (modes, unknowns) = (space.modes(), rows.nrows());
-    let weighted = Mat::from_fn(unknowns, rows.ncols(), |i, j| space.row_weights[i] * rows[(i, j)]);
-    let basis = space.pressure.subrows(FIRST_UNKNOWN, unknowns);
+    let modes = space.modes();
     let mut out = Mat::zeros(modes + 1, rows.ncols());
-    out.subrows_mut(0, modes).copy_from(basis.transpose() * &weighted);
+    out.subrows_mut(0, modes).copy_from(space.test.transpose() * rows);
     out
 }
 
@@ -94,9 +91,9 @@ impl SystemFunctions {
         let unknowns = space.grid.unknowns();
         let mut rows = Mat::zeros(unknowns, 2);
         for k in 0..unknowns {
-            let geometry = space.grid.rows[k].in_time(fields.input.speed, 0.0, 0.0);
-            rows[(k, 0)] = nodes[k + CENTER].flow;
-            rows[(k, 1)] = nodes.row(&geometry, penalty, Upstream::Inlet.stencil(k)).value;
+            let (stencil, geometry) = space.grid.row(k);
+            rows[(k, 0)] = nodes[stencil[CENTER]].flow;
+            rows[(k, 1)] = nodes.row(&geometry.in_time(fields.input.speed, 0.0, 0.0), penalty, stencil).value;
         }
         let mut tested = tested(space, rows.as_ref());
         let modes = space.modes();
@@ -107,38 +104,39 @@ impl SystemFunctions {
 }
 
 impl Linearisation {
-    /// Evaluates the reduced system functions of the full system and differentiates them with `PENALTY_SLOPE`. The
+    /// Evaluates the reduced system functions of the full system and differentiates them with the penalty slope of the space. The
     /// fields are those of the full system and need not lie in the reduced space, so that the values have no
     /// projection error.
     pub fn at(space: &ReducedSpace, problem: &Problem, fields: Fields<'_>) -> Self {
         let nodes = fields.nodes(space, problem);
         let (grid, modes, unknowns) = (&space.grid, space.modes(), space.grid.unknowns());
-        let curvature_slope = |node: usize| 0.5 * grid.x[node] * grid.x[node];
+        let curvature_slope = |node: usize| 0.5 * grid.place(node).0.powi(2);
         // Columns: those of the state, those of the inputs, the value.
         let columns = modes + 1 + INPUTS + 1;
         let (first_input, value) = (modes + 1, columns - 1);
         let (mut storage, mut flux) = (Mat::zeros(unknowns, columns), Mat::zeros(unknowns, columns));
         for k in 0..unknowns {
-            let geometry = grid.rows[k].in_time(fields.input.speed, 0.0, 0.0);
-            let row = nodes.row(&geometry, PENALTY_SLOPE, Upstream::Inlet.stencil(k));
-            let own = k + CENTER;
+            let (stencil, geometry) = grid.row(k);
+            let row = nodes.row(&geometry.in_time(fields.input.speed, 0.0, 0.0), space.penalty_slope, stencil);
+            let own = stencil[CENTER];
             let (flow, flow_p, flow_h) = (nodes[own].flow, nodes[own].flow_p, nodes[own].flow_h);
+            let parts = || stencil.into_iter().zip(row.d_p.into_iter().zip(row.d_h));
             for j in 0..modes {
                 storage[(k, j)] = flow_p * space.pressure[(own, j)] + flow_h * space.deformation[(own, j)];
-                flux[(k, j)] = (0..LineSpace::NODES)
-                    .map(|m| row.d_p[m] * space.pressure[(k + m, j)] + row.d_h[m] * space.deformation[(k + m, j)])
+                flux[(k, j)] = parts()
+                    .map(|(node, (d_p, d_h))| d_p * space.pressure[(node, j)] + d_h * space.deformation[(node, j)])
                     .sum();
             }
             storage[(k, modes)] = flow_h;
             flux[(k, modes)] = row.d_h.iter().sum();
             storage[(k, first_input)] = flow_h * curvature_slope(own);
-            flux[(k, first_input)] = (0..LineSpace::NODES).map(|m| row.d_h[m] * curvature_slope(k + m)).sum();
+            flux[(k, first_input)] = parts().map(|(node, (_, d_h))| d_h * curvature_slope(node)).sum();
             // f is linear in ū.
             flux[(k, first_input + 1)] =
-                -grid.rows[k].upwind.iter().zip(&nodes[k..]).map(|(w, n)| w * n.flow).sum::<f64>();
+                -geometry.upwind.iter().zip(stencil).map(|(w, node)| w * nodes[node].flow).sum::<f64>();
             storage[(k, value)] = flow;
             // Replaces the penalty of the slope by that of the value.
-            flux[(k, value)] = row.value - (PENALTY - PENALTY_SLOPE) * fields.pressure[own].min(0.0);
+            flux[(k, value)] = row.value - (PENALTY - space.penalty_slope) * fields.pressure[own].min(0.0);
         }
         let (storage, mut flux) = (tested(space, storage.as_ref()), tested(space, flux.as_ref()));
         for (j, l) in space.load.iter().enumerate() {

@@ -93,11 +93,7 @@ impl<'a> TpwlMarch<'a> {
             superposition: Superposition::new(weighting, len, most),
             system: SmallSystem::new(len),
             step: TpwlStep::default(),
-            contact: ContactRows::new(
-                &model.space.grid,
-                model.space.pressure.as_ref(),
-                model.space.deformation.as_ref(),
-            ),
+            contact: model.space.grid.contact_rows(model.space.pressure.as_ref(), model.space.deformation.as_ref()),
             scalars: Scalars::default(),
             record: TpwlRecord::with_room(steps, most.min(8), len),
             search,
@@ -171,11 +167,11 @@ const LINEAR: Effort = Effort { newton_iterations: 1, linear_iterations: 0 };
 
 impl Marching for TpwlMarch<'_> {
     fn mesh(&self) -> Mesh {
-        Mesh::of_line(&self.model.space.grid)
+        self.model.space.grid.mesh()
     }
 
     fn abscissae(&self) -> &[f64] {
-        &self.model.space.grid.x
+        self.model.space.grid.abscissae().0
     }
 
     fn rest(&mut self, at: &Conditions, observer: &dyn Observer) -> Result<Effort, Termination> {

@@ -6,6 +6,7 @@
 //! load are linear and condensed, so the reduced state is ỹ = (p̃, H₀): pressure coefficients and rigid-body
 //! separation.
 
+mod grid;
 mod linearisation;
 mod march;
 mod model;
@@ -18,6 +19,7 @@ mod superposition;
 mod tests;
 mod weights;
 
+pub use grid::{Plane, SpaceGrid};
 pub use linearisation::{LinearFunction, Linearisation, SystemFunctions};
 pub use march::{TpwlMarch, solve};
 pub use model::{ParameterSet, TpwlError, TpwlModel, TpwlTraining, TrainedPoint};

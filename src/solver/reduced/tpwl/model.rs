@@ -204,7 +204,35 @@ impl TpwlModel {
             TpwlError::Refused(sentence.to_owned())
         })?;
         let row_weights = row_weights(&grid, trajectories, PENALTY_SLOPE);
-        let space = ReducedSpace::new(grid, &basis, training.modes, row_weights);
+        let space = ReducedSpace::of_line(grid, &basis, training.modes, &row_weights);
+        Ok(Self::along(space, basis.singular_values, trajectories, training))
+    }
+
+    /// Trains a model in a given space from trajectories on its grid with stored fields.
+    ///
+    /// # Errors
+    /// As [`Self::train`].
+    pub fn train_in(
+        space: ReducedSpace,
+        singular_values: Vec<f64>,
+        trajectories: &[&Trajectory],
+        training: TpwlTraining,
+    ) -> Result<Self, TpwlError> {
+        if check(trajectories, training)?.mesh != space.grid.mesh() {
+            return Err(TpwlError::other("grid"));
+        }
+        let mut model = Self::along(space, singular_values, trajectories, training);
+        model.choose_points()?;
+        Ok(model)
+    }
+
+    /// Creates the model with the trajectories in its space and their sets, without operating points.
+    fn along(
+        space: ReducedSpace,
+        singular_values: Vec<f64>,
+        trajectories: &[&Trajectory],
+        training: TpwlTraining,
+    ) -> Self {
         let moments: Vec<Vec<TrainedMoment>> = trajectories.iter().map(|t| moments(&space, t)).collect();
         let mut problems: Vec<Problem> = Vec::new();
         for trajectory in trajectories {
@@ -217,14 +245,14 @@ impl TpwlModel {
             let own = |t: &usize| trajectories[*t].problem.point == problem.point;
             ParameterSet { problem, trajectories: (0..trajectories.len()).filter(own).collect(), points: Vec::new() }
         };
-        Ok(Self {
+        Self {
             space,
-            singular_values: basis.singular_values,
+            singular_values,
             sets: problems.into_iter().map(set).collect(),
             points: Vec::new(),
             trajectories: moments,
             training,
-        })
+        }
     }
 
     /// Selects and linearises the operating points of all sets, which must have none yet.

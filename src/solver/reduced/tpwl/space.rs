@@ -1,7 +1,8 @@
 //! Reduced space of a transient contact: its basis, and conversion between fields and reduced states.
 
-use crate::solver::discrete::elasticity::Scratch;
-use crate::solver::discrete::grid::LineGrid;
+use super::grid::SpaceGrid;
+use super::linearisation::PENALTY_SLOPE;
+use crate::solver::discrete::grid::{FIRST_UNKNOWN, LineGrid};
 use crate::solver::full::transient::{Input, State};
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::{PodBasis, dense, matrix_values};
@@ -22,7 +23,7 @@ pub fn input_vector(input: Input) -> [f64; INPUTS] {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct ReducedSpace {
     /// Grid of the fields.
-    pub grid: LineGrid,
+    pub grid: SpaceGrid,
     /// Modes V, one per column over the node array, Vᵀ W V = I.
     #[serde(with = "matrix_values")]
     pub pressure: Mat<f64>,
@@ -31,25 +32,38 @@ pub struct ReducedSpace {
     pub deformation: Mat<f64>,
     /// wᵀ V: load carried by each mode.
     pub load: Vec<f64>,
-    /// Weight of each row of the full system when tested with Vᵀ, see `row_sizes::row_weights`.
-    pub row_weights: Vec<f64>,
+    /// Test functions of the full system's rows: rows × modes. For a line contact V with a weight for each row, see
+    /// `row_sizes::row_weights`; for a circular contact the adjoints of the modes.
+    #[serde(with = "matrix_values")]
+    pub test: Mat<f64>,
+    /// Slope of the penalty in the cavitated region.
+    pub penalty_slope: f64,
 }
 
 impl ReducedSpace {
-    /// Creates the space of the first `modes` modes of a basis, with one weight per row of the full system.
-    pub fn new(grid: LineGrid, basis: &PodBasis, modes: usize, row_weights: Vec<f64>) -> Self {
-        let modes = modes.clamp(1, basis.modes.ncols());
+    /// Creates the space of a basis with its test functions.
+    pub fn new(grid: SpaceGrid, basis: &PodBasis, test: Mat<f64>, penalty_slope: f64) -> Self {
+        let modes = basis.modes.ncols().min(test.ncols());
         let pressure = basis.modes.get(.., ..modes).to_owned();
         let mut deformation = Mat::zeros(grid.len(), modes);
-        let (mut column, mut bent, mut fft) = (vec![0.0; grid.len()], vec![0.0; grid.len()], Scratch::default());
+        let (mut column, mut bent) = (vec![0.0; grid.len()], vec![0.0; grid.len()]);
         for k in 0..modes {
             column.iter_mut().enumerate().for_each(|(i, p)| *p = pressure[(i, k)]);
-            grid.deform(&column, &mut bent, &mut fft);
+            grid.deform(&column, &mut bent);
             bent.iter().enumerate().for_each(|(i, d)| deformation[(i, k)] = *d);
         }
-        let load =
-            (0..modes).map(|k| grid.weights.iter().enumerate().map(|(i, w)| w * pressure[(i, k)]).sum()).collect();
-        Self { grid, pressure, deformation, load, row_weights }
+        let load = |k: usize| grid.weights().iter().enumerate().map(|(i, w)| w * pressure[(i, k)]).sum();
+        let load = (0..modes).map(load).collect();
+        Self { grid, pressure, deformation, load, test, penalty_slope }
+    }
+
+    /// Creates the space of a line contact from the first `modes` modes of a basis, with one weight per row of the full
+    /// system.
+    pub fn of_line(grid: LineGrid, basis: &PodBasis, modes: usize, row_weights: &[f64]) -> Self {
+        let modes = modes.clamp(1, basis.modes.ncols());
+        let test =
+            Mat::from_fn(row_weights.len(), modes, |row, k| row_weights[row] * basis.modes[(row + FIRST_UNKNOWN, k)]);
+        Self::new(SpaceGrid::Line(grid), basis, test, PENALTY_SLOPE)
     }
 
     /// Number of modes.
@@ -71,7 +85,7 @@ impl ReducedSpace {
     pub fn project(&self, state: &State) -> Vec<f64> {
         let weighted = |k: usize| -> f64 {
             let column = self.pressure.col(k);
-            column.iter().zip(&self.grid.weights).zip(&state.pressure).map(|((v, w), p)| v * w * p).sum()
+            column.iter().zip(self.grid.weights()).zip(&state.pressure).map(|((v, w), p)| v * w * p).sum()
         };
         (0..self.modes()).map(weighted).chain([state.h_0]).collect()
     }
@@ -79,8 +93,8 @@ impl ReducedSpace {
     /// Returns the film thickness for pressures at all nodes.
     pub fn film(&self, pressure: &[f64], h_0: f64, input: Input) -> Vec<f64> {
         let mut film = vec![0.0; pressure.len()];
-        self.grid.deform(pressure, &mut film, &mut Scratch::default());
-        add_shape(&mut film, &self.grid.x, h_0, input);
+        self.grid.deform(pressure, &mut film);
+        add_shape(&mut film, &self.grid, h_0, input);
         film
     }
 
@@ -89,15 +103,16 @@ impl ReducedSpace {
         let modes = self.modes();
         dense::times(self.pressure.as_ref(), &state[..modes], pressure);
         dense::times(self.deformation.as_ref(), &state[..modes], film);
-        add_shape(film, &self.grid.x, state[modes], input);
+        add_shape(film, &self.grid, state[modes], input);
     }
 }
 
-/// Adds H₀ + X²/(2R̄) to a deformation.
-fn add_shape(film: &mut [f64], x: &[f64], h_0: f64, input: Input) {
+/// Adds H₀ + X²/(2R̄) + Y²/2 to a deformation.
+fn add_shape(film: &mut [f64], grid: &SpaceGrid, h_0: f64, input: Input) {
     let curvature = 1.0 / input.radius;
-    for (h, x) in film.iter_mut().zip(x) {
-        *h += h_0 + 0.5 * curvature * x * x;
+    for (node, h) in film.iter_mut().enumerate() {
+        let (x, y) = grid.place(node);
+        *h += h_0 + 0.5 * (curvature * x * x + y * y);
     }
 }
 

@@ -71,7 +71,7 @@ impl CoupledMarch {
     /// # Errors
     /// [`CoupledError`] if the model is refused, or if it finds no steady state.
     pub fn begin(model: &Arc<TrajectoryModel>, reference: Problem, input: Input) -> Result<Self, CoupledError> {
-        let (mut march, frame) = (ReducedMarch::on(model)?, model.frame);
+        let (mut march, frame) = (ReducedMarch::on(model), model.frame);
         let at = conditions(frame, &reference, 0.0, input)?;
         let refused = |termination: Termination| Ended::StepRefused { time: 0.0, step: 0.0, termination };
         let effort = march.rest(&at, &()).map_err(|why| CoupledError::Ended(refused(why)))?;
@@ -132,7 +132,7 @@ impl CoupledMarch {
     /// # Errors
     /// [`CoupledError`] if the model is refused, or if the state belongs to another model.
     pub fn resume(model: &Arc<TrajectoryModel>, reference: Problem, state: &MarchState) -> Result<Self, CoupledError> {
-        let (march, frame) = (ReducedMarch::on(model)?, model.frame);
+        let (march, frame) = (ReducedMarch::on(model), model.frame);
         let at = conditions(frame, &reference, state.moment.time, state.moment.input)?;
         let longest = model.domain.step;
         let mut resumed = Self { march, frame, reference, longest, at, former: at, now: state.clone() };

@@ -1,6 +1,6 @@
 //! One basis of a transient model with its operators.
 
-use crate::solver::discrete::grid::{FIRST_UNKNOWN, LineGrid};
+use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::discrete::reynolds::line::Upstream;
 use crate::solver::discrete::reynolds::{RowGeometry, STENCIL};
 use crate::solver::full::transient::{Conditions, History, Step};
@@ -12,7 +12,7 @@ use crate::solver::reduced::operators::{Flow, Operators, passed_rows};
 pub(super) struct Part {
     pub operators: Operators,
     /// Stencils and coefficients of the sampled equations and of the rows that the cavitation boundary may pass, for
-    /// flow from the inlet and from the outlet.
+    /// flow from the inlet and from the outlet. The flow of a point contact comes from the inlet.
     sides: Vec<[Side; 2]>,
     /// Nodes of these rows, and their X.
     pub nodes: Vec<usize>,
@@ -28,25 +28,38 @@ struct Side {
 }
 
 impl Part {
-    /// Builds the basis and rows of a local model on its grid.
-    pub fn new(window: &Window, grid: &LineGrid) -> Self {
-        let modes = window.pressure.count();
-        let (unknowns, last) = (grid.unknowns(), grid.len() - 1);
+    /// Builds the basis and rows of a local model.
+    pub fn new(window: &Window) -> Self {
+        let (grid, modes) = (&window.grid, window.pressure.count());
         let rows: Vec<usize> = window.sampled_rows.iter().copied().chain(passed_rows(window)).collect();
-        let further: Vec<usize> = rows.iter().map(|row| (row + 4).min(last)).collect();
-        let operators = Operators::new(window, modes, None, Flow::Transient(&further));
-        let place = |node: usize| operators.place(node);
-        let side = |row: usize, velocity: f64| {
-            let upstream = Upstream::of(velocity, row, unknowns);
-            Side { stencil: upstream.stencil(row).map(place), geometry: upstream.geometry(&grid.x, row) }
+        let further: Vec<usize> = match grid {
+            ContactGrid::Line(grid) => rows.iter().map(|row| (row + 4).min(grid.xi.len() - 1)).collect(),
+            ContactGrid::Point(_) => Vec::new(),
         };
-        let sides: Vec<[Side; 2]> = rows.iter().map(|&row| [side(row, 1.0), side(row, -1.0)]).collect();
+        let operators = Operators::new(window, modes, None, Flow::Transient(&further));
+        let side = |(stencil, geometry): ([usize; STENCIL], RowGeometry)| Side {
+            stencil: stencil.map(|node| operators.place(node)),
+            geometry,
+        };
+        let sides = rows.iter().map(|&row| match grid {
+            ContactGrid::Line(line) => [1.0, -1.0].map(|velocity| {
+                let upstream = Upstream::of(velocity, row, grid.unknowns());
+                side((upstream.stencil(row), upstream.geometry(&line.xi, row)))
+            }),
+            ContactGrid::Point(_) => [side(grid.row(row)); 2],
+        });
+        let sides = sides.collect();
+        let nodes: Vec<usize> = rows.iter().map(|row| grid.node(*row)).collect();
+        let (pressure, deformation) = (window.pressure.basis().modes.as_ref(), window.pressure.flexed().as_ref());
         Self {
-            nodes: rows.iter().map(|row| row + FIRST_UNKNOWN).collect(),
-            x: rows.iter().map(|row| grid.x[row + FIRST_UNKNOWN]).collect(),
+            x: nodes.iter().map(|node| grid.place(*node).0).collect(),
+            nodes,
             sides,
             operators,
-            contact: ContactRows::new(grid, window.pressure.basis().modes.as_ref(), window.pressure.flexed().as_ref()),
+            contact: match grid {
+                ContactGrid::Line(line) => ContactRows::new(&line.scaled(1.0), pressure, deformation),
+                ContactGrid::Point(plane) => ContactRows::new(&**plane, pressure, deformation),
+            },
         }
     }
 

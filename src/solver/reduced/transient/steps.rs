@@ -4,13 +4,14 @@
 use super::model::{TrajectoryModel, TrajectoryStart};
 use super::nearest::Nearest;
 use super::part::Part;
-use crate::solver::discrete::elasticity::Scratch;
-use crate::solver::discrete::grid::{LineGrid, ReferenceGrid, dot};
-use crate::solver::full::transient::{Conditions, Effort, Frame, History, Marching, Moment, State, Step, Transient};
+use crate::solver::discrete::elasticity::{PointScratch, Scratch};
+use crate::solver::discrete::grid::{ContactGrid, dot};
+use crate::solver::full::transient::{
+    Conditions, Effort, Frame, History, Input, Marching, Moment, Signal, State, Step, Transient,
+};
 use crate::solver::full::{Mesh, Scalars, Termination};
 use crate::solver::observer::Observer;
 use crate::solver::parameters::distance;
-use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::operators::{Case, Iterate, Start, Stop, cut_off};
 use crate::solver::reduced::{ReducedError, Window, dense};
@@ -36,7 +37,7 @@ pub(crate) type StepObserver<'a> = Box<dyn FnMut(usize, &Iterate<'_>) + 'a>;
 /// Reduced model prepared for a march.
 pub struct ReducedMarch<'a> {
     model: Arc<TrajectoryModel>,
-    grid: LineGrid,
+    grid: ContactGrid,
     /// Whole basis, then the local ones.
     parts: Vec<Part>,
     nearest: Nearest,
@@ -47,6 +48,10 @@ pub struct ReducedMarch<'a> {
     coefficients: Vec<f64>,
     start: Vec<f64>,
     h_0: f64,
+    /// Prescribed change of H₀ plus 1, if H₀ and not the load is given; H₀ of the start; and whether a step is solved.
+    separation: Option<Signal>,
+    h_0_of_start: f64,
+    prescribed: bool,
     /// Equations at the previous states, the nearer one first; `None` before the march starts.
     at: Option<[Conditions; 2]>,
     /// Cavitation boundaries of these states, and that at the start of a step; empty with a penalty.
@@ -84,26 +89,26 @@ impl<'a> ReducedMarch<'a> {
     /// Prepares the model for a march along `transient`.
     ///
     /// # Errors
-    /// [`ReducedError`] if the model is of point contacts, or of another cavitation model.
+    /// [`ReducedError`] if the model is of another kind of contact, or of another cavitation model.
     pub fn new(model: &Arc<TrajectoryModel>, transient: &Transient) -> Result<Self, ReducedError> {
-        let (own, given) = (model.window.cavitation, transient.lubricant.cavitation);
+        let (own, given) = (model.window.grid.kind(), transient.point.kind);
+        if own != given {
+            return Err(ReducedError::OtherContact { model: own, given });
+        }
+        let (own, given) = (model.domain.reference.lubricant.cavitation, transient.lubricant.cavitation);
         if own != given {
             return Err(ReducedError::OtherRupture { model: own, given });
         }
-        Self::on(model)
+        Ok(Self { separation: transient.separation.clone(), ..Self::on(model) })
     }
 
     /// Prepares the model for any march.
-    ///
-    /// # Errors
-    /// [`ReducedError`] if the model is of point contacts.
-    pub(super) fn on(model: &Arc<TrajectoryModel>) -> Result<Self, ReducedError> {
-        let grid = line_grid(model)?.scaled(1.0);
-        let parts: Vec<Part> =
-            (WHOLE..=model.locals.len()).map(|number| Part::new(model.numbered(number), &grid)).collect();
+    pub(super) fn on(model: &Arc<TrajectoryModel>) -> Self {
+        let grid = model.window.grid.clone();
+        let parts: Vec<Part> = (WHOLE..=model.locals.len()).map(|number| Part::new(model.numbered(number))).collect();
         let modes = model.window.pressure.count();
         let rows = parts.iter().map(|part| part.x.len()).max().unwrap_or(0);
-        Ok(Self {
+        Self {
             nearest: Nearest::new(model),
             number: WHOLE,
             stayed: 0,
@@ -111,6 +116,9 @@ impl<'a> ReducedMarch<'a> {
             coefficients: vec![0.0; modes],
             start: vec![0.0; modes],
             h_0: 0.0,
+            separation: None,
+            h_0_of_start: 0.0,
+            prescribed: false,
             at: None,
             fronts: [Vec::new(), Vec::new()],
             front: Vec::new(),
@@ -122,7 +130,7 @@ impl<'a> ReducedMarch<'a> {
             grid,
             observer: None,
             model: Arc::clone(model),
-        })
+        }
     }
 
     /// Copies the current state to `kept` without allocating, if the capacity suffices.
@@ -147,7 +155,7 @@ impl<'a> ReducedMarch<'a> {
     pub(super) fn knows(&self, kept: &StepState) -> bool {
         let Some(part) = self.parts.get(kept.number) else { return false };
         let between = if matches!(self.model.frame, Frame::Remeshed(_)) { self.grid.len() } else { 0 };
-        let lines = if self.model.window.cavitation == Cavitation::Penalty { 0 } else { 1 };
+        let lines = if self.model.window.cavitation == Cavitation::Penalty { 0 } else { self.grid.lines() };
         let mut fronts = kept.fronts.iter();
         kept.history.is_of(part.operators.modes(), part.x.len(), between)
             && fronts.all(|own| own.len() == lines && own.iter().all(|front| *front <= self.grid.len()))
@@ -207,9 +215,12 @@ impl<'a> ReducedMarch<'a> {
     /// Runs Newton's method for the end of a step, in the current basis.
     fn solve(&mut self, step: &Step) -> Result<Effort, Termination> {
         let part = &mut self.parts[self.number];
-        self.history.carry(self.model.frame, step, &self.grid.x, &part.x);
+        self.history.carry(self.model.frame, step, self.grid.abscissae().0, &part.x);
         part.set_rows(step, &self.history);
         self.h_0 = self.history.extrapolate(step.ratio, &mut self.start);
+        if let Some(separation) = &self.separation {
+            self.h_0 = self.h_0_of_start + separation.at(step.now.time) - 1.0;
+        }
         self.front.clone_from(&self.fronts[0]);
         self.newton(&step.now, MOST_NEWTON[0])
     }
@@ -223,7 +234,7 @@ impl<'a> ReducedMarch<'a> {
         let mut effort = Effort::default();
         let attempts = if self.front.is_empty() { &ATTEMPTS[1..] } else { &ATTEMPTS[..] };
         for (held, softness) in attempts {
-            let case = case(at, softness * window.penalty, max_newton);
+            let case = Case { prescribed: self.prescribed, ..case(at, softness * window.penalty, max_newton) };
             let fronts = held.then_some(self.front.as_slice());
             operators.begin(&case, &Start { window, modes: usize::MAX, fronts, theta: &[] });
             self.coefficients.copy_from_slice(&self.start);
@@ -265,10 +276,10 @@ impl<'a> ReducedMarch<'a> {
             let [pressure, film] = &self.fields;
             let fluid = &at.problem.fluid;
             let flow = pressure.iter().zip(film).map(|(&p, &h)| fluid.at(p).density * h);
-            self.history.remember_between(interpolation, &self.grid.x, flow);
+            self.history.remember_between(interpolation, self.grid.abscissae().0, flow);
         }
-        let (cut, flexibility) = (&self.cut, &self.grid.reference.flexibility);
-        let bend = |node| -cut.iter().map(|&(other, value)| flexibility.entry(node, other) * value).sum::<f64>();
+        let (cut, grid) = (&self.cut, &self.grid);
+        let bend = |node| -cut.iter().map(|&(other, value)| grid.kernel_entry(node, other) * value).sum::<f64>();
         self.scalars = self.parts[self.number].contact.scalars(at, &self.coefficients, self.h_0, bend);
     }
 
@@ -291,10 +302,14 @@ impl<'a> ReducedMarch<'a> {
             dense::times(window.pressure.flexed().as_ref(), coefficients, film);
         } else {
             cut_off(&window.grid, fronts, pressure);
-            self.grid.deform(pressure, film, fft);
+            match &self.grid {
+                ContactGrid::Line(grid) => grid.flexibility.apply(pressure, film, fft),
+                ContactGrid::Point(grid) => grid.deform(pressure, film, &mut PointScratch::default()),
+            }
         }
-        for (film, x) in film.iter_mut().zip(&self.grid.x) {
-            *film += h_0 + 0.5 * at.curvature * x * x;
+        for (node, film) in film.iter_mut().enumerate() {
+            let (x, y) = self.grid.place(node);
+            *film += h_0 + 0.5 * (at.curvature * x * x + y * y);
         }
     }
 }
@@ -302,28 +317,23 @@ impl<'a> ReducedMarch<'a> {
 /// Returns the contact at the end of a step.
 fn case(at: &Conditions, penalty: f64, max_newton: usize) -> Case<'_> {
     let stop = Stop::new(TOLERANCE, max_newton);
-    Case { problem: &at.problem, scale: 1.0, curvature: at.curvature, penalty, stop }
-}
-
-fn line_grid(model: &TrajectoryModel) -> Result<Arc<ReferenceGrid>, ReducedError> {
-    let other = ReducedError::OtherContact { model: ContactKind::Point, given: ContactKind::Line };
-    model.window.grid.line().cloned().ok_or(other)
+    Case { problem: &at.problem, scale: 1.0, curvature: at.curvature, penalty, prescribed: false, stop }
 }
 
 impl Marching for ReducedMarch<'_> {
     fn mesh(&self) -> Mesh {
-        Mesh::of_line(&self.grid)
+        Mesh { spec: self.grid.spec(), scale: 1.0 }
     }
 
     fn abscissae(&self) -> &[f64] {
-        &self.grid.x
+        self.grid.abscissae().0
     }
 
     fn rest(&mut self, at: &Conditions, _: &dyn Observer) -> Result<Effort, Termination> {
         let moes = at.problem.moes;
         let far = |start: &TrajectoryStart| {
-            let load = start.inputs.at(0.0).load - at.input.load;
-            distance(moes, start.point.moes()) + load * load
+            let (own, given) = (start.inputs.at(0.0), at.input);
+            distance(moes, start.point.moes()) + (own.load - given.load).powi(2) + (own.speed - given.speed).powi(2)
         };
         let nearest = self.model.starts.iter().min_by(|a, b| far(a).total_cmp(&far(b)));
         let Some(nearest) = nearest else { return Err(Termination::Diverged) };
@@ -333,7 +343,9 @@ impl Marching for ReducedMarch<'_> {
         self.h_0 = nearest.h_0;
         self.make_room();
         self.parts[WHOLE].rest(at);
+        self.prescribed = false;
         let effort = self.newton(at, MOST_NEWTON[1])?;
+        (self.h_0_of_start, self.prescribed) = (self.h_0, self.separation.is_some());
         self.remember(at);
         self.history.rest();
         self.fronts[1] = self.fronts[0].clone();
@@ -366,7 +378,13 @@ impl Marching for ReducedMarch<'_> {
     }
 
     fn moment(&self, at: &Conditions, step: f64, effort: Effort) -> Moment {
-        Moment::of_scalars(at, step, &self.scalars, effort)
+        let mut at = *at;
+        if self.separation.is_some() {
+            let reference = at.problem.load / at.input.load;
+            let load = self.parts[self.number].operators.carried(&self.coefficients) / reference;
+            at.input = Input { load, ..at.input };
+        }
+        Moment::of_scalars(&at, step, &self.scalars, effort)
     }
 
     fn state(&self, at: &Conditions) -> State {

@@ -1,0 +1,296 @@
+//! Load of a contact at a given approach of its bodies: a force element for multibody programs.
+//!
+//! Between the smallest and the largest trained load, the load is found by solves. Beyond them it follows power laws
+//! with the value and the slope at the last trained load, so that bodies may separate, fall back and press harder. A
+//! wide gap carries w ∝ s^(−n) at the separation s (rigid bodies, constant viscosity), with n = 1 for a line and 1/2
+//! for a point contact. A heavily loaded contact carries w ∝ δ^(3/2) at the approach δ for a point contact (Hertz) and
+//! nearly w ∝ δ^(10/9) for a line contact (Palmgren).
+//!
+//! The load depends on the current inputs only. Over a closed cycle the element does no work.
+
+use super::{Coupled, CoupledError, Inputs, Outputs, error::check};
+use crate::solver::full::Problem;
+use crate::solver::parameters::Quantity;
+use crate::solver::physics::contact::ContactKind;
+use crate::solver::reduced::Trust;
+use crate::solver::warning::Warning;
+use std::f64::consts::TAU;
+
+/// Tolerance of the approach in the search, relative to the approaches of the trained loads.
+const FOUND: f64 = 1e-13;
+/// Largest number of solves of the search.
+const MOST_SOLVES: usize = 60;
+/// Number of loads at which the trained range is looked up, and of bisections of its ends.
+const LOOKED_UP: usize = 200;
+const BISECTIONS: usize = 45;
+/// Relative difference of the loads from which the slope at an end is computed.
+const DIFFERENCE: f64 = 1e-2;
+
+/// Hertzian pressure of a contact from which the trained loads are looked up \[Pa\].
+const USUAL_PRESSURE: f64 = 5e8;
+
+/// Trained loads of a contact with given inputs.
+pub(super) struct Reach {
+    /// Inputs, with the approach 0 and a usual load.
+    inputs: Inputs,
+    /// Smallest and largest load.
+    ends: [End; 2],
+}
+
+/// Contact at an end of the trained loads.
+struct End {
+    load: f64,
+    approach_m: f64,
+    /// Load over its slope by the approach \[m\].
+    length_m: f64,
+    outputs: Outputs,
+}
+
+/// Exponents of the load in the separation of a wide gap, and in the approach of a heavily loaded contact.
+fn exponents(kind: ContactKind) -> [f64; 2] {
+    match kind {
+        ContactKind::Line => [-1.0, 10.0 / 9.0],
+        ContactKind::Point => [-0.5, 1.5],
+    }
+}
+
+/// Returns a load of usual size: about that of [`USUAL_PRESSURE`]. The load of the inputs is not used.
+fn usual_load(inputs: &Inputs, kind: ContactKind) -> f64 {
+    let (radius, modulus) = (inputs.radius_m, inputs.modulus_pa);
+    match kind {
+        ContactKind::Line => TAU * radius * USUAL_PRESSURE.powi(2) / modulus,
+        ContactKind::Point => 20.0 * radius.powi(2) * USUAL_PRESSURE.powi(3) / modulus.powi(2),
+    }
+}
+
+impl End {
+    /// Solves the contact under an end of the trained loads and under another load next to it.
+    fn of(coupled: &mut Coupled, inputs: &Inputs, load: f64, inwards: f64) -> Result<Self, CoupledError> {
+        let (outputs, beside) = (coupled.under(inputs, load)?, coupled.under(inputs, load * inwards)?);
+        // ln w is closer to a straight line than w.
+        let length_m = (beside.approach_m - outputs.approach_m) / inwards.ln();
+        if !(length_m.is_finite() && length_m > 0.0) {
+            return Err(CoupledError::NoLoad(inputs.approach_m));
+        }
+        Ok(Self { load, approach_m: outputs.approach_m, length_m, outputs })
+    }
+
+    /// Returns the outputs at an approach beyond this end; `exponent` is that of the load.
+    fn beyond(&self, wanted: f64, exponent: f64, kind: ContactKind) -> Outputs {
+        let further = wanted - self.approach_m;
+        let ratio = (1.0 + further / (exponent * self.length_m)).powf(exponent);
+        let dry = match kind {
+            ContactKind::Line => ratio.sqrt(),
+            ContactKind::Point => ratio.cbrt(),
+        };
+        // In an opening gap the film grows with the separation.
+        let film = (-further).max(0.0);
+        let mut outputs = self.outputs.clone();
+        outputs.load *= ratio;
+        outputs.friction_force *= ratio;
+        outputs.half_width_m *= dry;
+        outputs.hertz_pressure_pa *= dry;
+        outputs.approach_m = wanted;
+        outputs.h_c_m += film;
+        outputs.h_min_m += film;
+        outputs.error_bounds = [f64::NAN; 3];
+        outputs.trained = false;
+        outputs.warnings.push(Warning::LoadExtrapolated { load: outputs.load, last: self.load });
+        outputs
+    }
+}
+
+impl Coupled {
+    /// Returns the outputs at the approach of the inputs.
+    pub(super) fn approached(&mut self, inputs: &Inputs) -> Result<Outputs, CoupledError> {
+        let wanted = inputs.approach_m;
+        check("approach", wanted, " m", ("", |_| true))?;
+        let given = Inputs { approach_m: 0.0, load: usual_load(inputs, self.model.contact()), ..*inputs };
+        let reach = match self.reach.take() {
+            Some(reach) if reach.inputs == given => reach,
+            _ => self.reach(&given)?,
+        };
+        let found = self.within(&reach, inputs);
+        self.reach = Some(reach);
+        found
+    }
+
+    /// Solves the contacts at the ends of the trained loads.
+    fn reach(&mut self, given: &Inputs) -> Result<Reach, CoupledError> {
+        let (low, high) = self.trained_loads(given)?;
+        let ends =
+            [End::of(self, given, low, 1.0 + DIFFERENCE)?, End::of(self, given, high, 1.0 / (1.0 + DIFFERENCE))?];
+        Ok(Reach { inputs: *given, ends })
+    }
+
+    /// Returns the smallest and the largest load for which the model is trained; those of its range of M (Moes) if it
+    /// is trained for none.
+    fn trained_loads(&self, given: &Inputs) -> Result<(f64, f64), CoupledError> {
+        let kind = self.model.contact();
+        let own = self.request(given, given.load)?.point.moes().m;
+        let range =
+            self.model.domain.space.interval(Quantity::M, kind).ok_or(CoupledError::NoLoad(given.approach_m))?;
+        // M is proportional to the load.
+        let [low, high] = [range.0, range.1].map(|m| given.load * m / own);
+        let load = |k: f64| low * (high / low).powf(k / LOOKED_UP as f64);
+        let trained = |k: f64| {
+            let problem =
+                self.request(given, load(k)).ok().and_then(|request| Problem::new(&request.point, self.lubricant).ok());
+            problem.is_some_and(|problem| self.model.trust(&problem) == Trust::Trained)
+        };
+        let inside: Vec<bool> = (0..=LOOKED_UP).map(|k| trained(k as f64)).collect();
+        let Some(first) = inside.iter().position(|inside| *inside) else { return Ok((low, high)) };
+        let last = first + inside[first..].iter().take_while(|inside| **inside).count() - 1;
+        let end = |mut inner: f64, mut outer: f64| {
+            if !(0.0..=LOOKED_UP as f64).contains(&outer) {
+                return load(inner);
+            }
+            for _ in 0..BISECTIONS {
+                let middle = 0.5 * (inner + outer);
+                if trained(middle) { inner = middle } else { outer = middle }
+            }
+            load(inner)
+        };
+        Ok((end(first as f64, first as f64 - 1.0), end(last as f64, last as f64 + 1.0)))
+    }
+
+    /// Returns the outputs at an approach, given the trained loads. The search is regula falsi in the Illinois variant:
+    /// the value of an end point that is retained twice is halved.
+    fn within(&mut self, Reach { ends: [low, high], .. }: &Reach, inputs: &Inputs) -> Result<Outputs, CoupledError> {
+        let (wanted, kind) = (inputs.approach_m, self.model.contact());
+        let [opening, closing] = exponents(kind);
+        if wanted <= low.approach_m {
+            return Ok(low.beyond(wanted, opening, kind));
+        }
+        if wanted >= high.approach_m {
+            return Ok(high.beyond(wanted, closing, kind));
+        }
+        // In this power of the load, the approach is nearly a straight line.
+        let place = |end: &End| (end.load.powf(1.0 / closing), end.approach_m - wanted);
+        let (mut a, mut b) = (place(low), place(high));
+        let tolerance = FOUND * low.approach_m.abs().max(high.approach_m.abs());
+        for _ in 0..MOST_SOLVES {
+            let between = b.0 - b.1 * (b.0 - a.0) / (b.1 - a.1);
+            let outputs = self.under(inputs, between.powf(closing))?;
+            let next = (between, outputs.approach_m - wanted);
+            let stays = between == a.0 || between == b.0;
+            if next.1.abs() <= tolerance || stays {
+                return Ok(outputs);
+            }
+            if next.1 * b.1 < 0.0 {
+                a = b;
+            } else {
+                a.1 *= 0.5;
+            }
+            b = next;
+        }
+        Err(CoupledError::NoLoad(wanted))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Pressed;
+    use super::*;
+    use crate::engine::embedded;
+    use std::sync::Arc;
+
+    /// Returns the unit of an embedded model, inputs, and the trained loads of these inputs.
+    fn unit(which: &str) -> (Coupled, Inputs, (f64, f64)) {
+        let model = embedded(which).unwrap();
+        let inputs = Coupled::first_inputs(&model).unwrap();
+        let unit = Coupled::new(Arc::clone(&model), Pressed::Approach).unwrap();
+        let given = Inputs { load: usual_load(&inputs, model.contact()), approach_m: 0.0, ..inputs };
+        let loads = unit.trained_loads(&given).unwrap();
+        (unit, inputs, loads)
+    }
+
+    #[test]
+    fn the_load_rises_smoothly_with_the_approach_from_an_open_gap_to_beyond_the_training() {
+        for which in ["point", "line"] {
+            let (mut unit, inputs, loads) = unit(which);
+            assert!(loads.1 > 5.0 * loads.0, "{which}: {loads:?}");
+            let under = |unit: &mut Coupled, approach_m: f64| unit.solve(&Inputs { approach_m, ..inputs }).unwrap();
+            under(&mut unit, 0.0);
+            let ends = unit.reach.as_ref().unwrap().ends.each_ref().map(|end| (end.approach_m, end.load, end.length_m));
+            for (end, load, length) in ends {
+                // Value and slope agree on both sides of an end.
+                let step = 0.01 * length;
+                let [before, at, after] = [-step, 0.0, step].map(|by| under(&mut unit, end + by).load);
+                assert!((at / load - 1.0).abs() < 1e-9, "{which}: {at} against {load}");
+                let (left, right) = (at - before, after - at);
+                assert!((left / right - 1.0).abs() < 0.1, "{which}: slopes {left:e} and {right:e}");
+            }
+            let span = ends[1].0 - ends[0].0;
+            let approaches = (0..=60).map(|k| ends[0].0 + span * (f64::from(k) / 40.0 - 0.25));
+            let loads: Vec<f64> = approaches.map(|approach_m| under(&mut unit, approach_m).load).collect();
+            assert!(loads.windows(2).all(|pair| pair[1] > pair[0]), "{which}: {loads:?}");
+            // Wide open, the load vanishes as that of rigid bodies.
+            let [wide, wider] = [1e3, 4e3].map(|times| under(&mut unit, ends[0].0 - times * ends[0].2));
+            let wanted = if which == "line" { 4.0 } else { 2.0 };
+            assert!((wide.load / wider.load / wanted - 1.0).abs() < 0.01, "{which}: {} {}", wide.load, wider.load);
+            assert!(!wide.trained && wide.h_min_m > 100.0 * ends[0].2 && !wide.warnings.is_empty());
+            assert!(unit.solve(&Inputs { approach_m: f64::NAN, ..inputs }).is_err());
+        }
+    }
+
+    #[test]
+    fn the_load_does_not_depend_on_what_was_asked_before() {
+        let (mut unit, inputs, _) = unit("point");
+        let wanted = Inputs { approach_m: 0.8 * inputs.approach_m, ..inputs };
+        let first = unit.solve(&wanted).unwrap();
+        unit.solve(&Inputs { speed_m_per_s: 1.1 * inputs.speed_m_per_s, load: 2.0 * inputs.load, ..wanted }).unwrap();
+        assert_eq!(unit.solve(&Inputs { load: 0.3 * inputs.load, ..wanted }).unwrap(), first);
+    }
+
+    /// Lets a mass fall on the contact and bounce. Returns the work of the contact over the closed cycle and the largest
+    /// potential energy, and the largest load.
+    fn impact(
+        unit: &mut Coupled,
+        inputs: &Inputs,
+        (mass, speed, start, step): (f64, f64, f64, f64),
+    ) -> (f64, f64, f64) {
+        let mut load = |approach_m: f64| unit.solve(&Inputs { approach_m, ..*inputs }).unwrap().load;
+        let (mut approach, mut velocity) = (start, speed);
+        let mut force = load(approach);
+        let (mut work, mut energy, mut largest) = (0.0, 0.0f64, force);
+        // Verlet's method. The work is that of Simpson's rule over each step.
+        while approach >= start {
+            let before = (approach, force);
+            approach += step * (velocity - 0.5 * step * force / mass);
+            let middle = load(0.5 * (before.0 + approach));
+            force = load(approach);
+            velocity -= 0.5 * step * (before.1 + force) / mass;
+            work += (approach - before.0) * (before.1 + 4.0 * middle + force) / 6.0;
+            energy = energy.max(work);
+            largest = largest.max(force);
+        }
+        // Back to the start along the straight line, whose work is known from two loads.
+        work += (start - approach) * 0.5 * (force + load(start));
+        (work, energy, largest)
+    }
+
+    #[test]
+    fn masses_bounce_off_without_work_over_the_cycle() {
+        let count = if std::env::var_os("EHL_LONG").is_some() { 500 } else { 4 };
+        let mut random = fastrand::Rng::with_seed(7);
+        for which in ["point", "line"] {
+            let (mut unit, inputs, loads) = unit(which);
+            let low = unit
+                .solve(&Inputs { approach_m: 0.0, ..inputs })
+                .map(|_| unit.reach.as_ref().unwrap().ends[0].approach_m);
+            let low = low.unwrap();
+            let length = unit.reach.as_ref().unwrap().ends[1].approach_m - low;
+            for _ in 0..count {
+                // The kinetic energy compares with the work up to the largest trained load, 2/5 or 1/2 of load × length.
+                let energy = (0.05 + 0.6 * random.f64()) * loads.1 * length;
+                let mass = 10f64.powf(-2.0 + 2.0 * random.f64());
+                let speed = (2.0 * energy / mass).sqrt();
+                let step = 0.02 * length / speed;
+                let (work, energy, largest) = impact(&mut unit, &inputs, (mass, speed, low - 0.5 * length, step));
+                assert!(work.abs() <= 1e-6 * energy, "{which}: {:e} of the peak energy", work / energy);
+                assert!(largest > 0.02 * loads.1);
+            }
+        }
+    }
+}
