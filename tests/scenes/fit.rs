@@ -90,7 +90,7 @@ fn a_fit_without_noise_returns_the_constants() {
 fn what_a_table_cannot_determine_is_refused() {
     let [film, _] = exact();
     let mut rng = Rng::with_seed(1);
-    let mut refused =
+    let refused =
         |text: CaseTable, parameter| fitted(&mut Workbench::new(""), vec![text], vec![parameter]).unwrap_err();
     let films = table("speed,film", &film, &mut rng);
     assert!(refused(films.clone(), FitParameter::EyringStress).contains("do not determine τ_E"));
