@@ -114,11 +114,12 @@ impl MeasuredWindow {
     fn table_ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         let tables = &context.document.view.measured;
         self.shown = self.shown.min(tables.len());
+        let mut wanted = self.shown;
         ui.horizontal_wrapped(|ui| {
             for k in 0..=tables.len().min(MOST_TABLES - 1) {
                 let name = if k == tables.len() { "New table".to_owned() } else { format!("Table {}", k + 1) };
                 if ui.selectable_label(self.shown == k, name).clicked() {
-                    (self.shown, self.draft) = (k, None);
+                    wanted = k;
                 }
             }
         });
@@ -173,6 +174,10 @@ impl MeasuredWindow {
             let view = View { measured, ..context.document.view.clone() };
             commands.edit(Edit::View(Box::new(view)), GROUP);
             self.draft = None;
+        }
+        // The edited table has been taken over by now, if it is valid.
+        if wanted != self.shown {
+            (self.shown, self.draft) = (wanted, None);
         }
     }
 

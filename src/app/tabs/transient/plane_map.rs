@@ -54,12 +54,18 @@ impl Shown {
 }
 
 /// Data that an image was made of.
-#[derive(PartialEq)]
 struct Made {
-    generation: u64,
+    setup: Arc<Setup>,
     time: f64,
     range: (f64, f64),
     shown: Shown,
+}
+
+impl PartialEq for Made {
+    fn eq(&self, other: &Self) -> bool {
+        let of = |made: &Self| (made.time, made.range, made.shown);
+        Arc::ptr_eq(&self.setup, &other.setup) && of(self) == of(other)
+    }
 }
 
 /// Map with the image kept between frames.
@@ -156,7 +162,7 @@ impl PlaneMap {
         let view = context.transient;
         let (setup, run) = view.setup.as_ref().zip(shown_run(view))?;
         let plane = Plane::of(run, view.player.time())?;
-        self.follow(ui, view, setup, (run, &plane));
+        self.follow(ui, setup, (run, &plane));
         let range = range(run, self.shown);
         ui.horizontal_top(|ui| {
             let width = (ui.available_width() - color_bar::WIDTH - 8.0).max(120.0);
@@ -170,9 +176,9 @@ impl PlaneMap {
     }
 
     /// Updates image and contour lines if they are out of date.
-    fn follow(&mut self, ui: &Ui, view: &TransientRuns, setup: &Setup, (run, plane): (&Run, &Plane<'_>)) {
+    fn follow(&mut self, ui: &Ui, setup: &Arc<Setup>, (run, plane): (&Run, &Plane<'_>)) {
         let range = range(run, self.shown);
-        let made = Made { generation: view.generation, time: plane.state.time, range, shown: self.shown };
+        let made = Made { setup: Arc::clone(setup), time: plane.state.time, range, shown: self.shown };
         if self.made.as_ref() == Some(&made) {
             return;
         }

@@ -301,11 +301,14 @@ mod tests {
     use QuantityKind as K;
     use UnitSystem::{Engineering, Imperial, Si};
 
+    /// Kind, value in SI units, and its number and unit in each system.
+    type Entry = (K, f64, [(f64, &'static str); 3]);
+
     /// Values in SI units with their numbers in the three systems, from the definitions of the inch (0.0254 m), the
     /// pound-force (4.448 221 615 260 5 N), the horsepower (550 ft lbf/s), the Btu (1055.055 852 62 J) and the Celsius
     /// and Fahrenheit scales.
     #[rustfmt::skip]
-    const TABLE: [(K, f64, [(f64, &str); 3]); 20] = [
+    const TABLE: [Entry; 20] = [
         (K::Length, 0.0254, [(0.0254, "m"), (25.4, "mm"), (1.0, "in")]),
         (K::FilmThickness, 2.54e-7, [(2.54e-7, "m"), (0.254, "µm"), (10.0, "µin")]),
         (K::Speed, 2.54, [(2.54, "m/s"), (2.54, "m/s"), (100.0, "in/s")]),
