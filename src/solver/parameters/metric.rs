@@ -97,7 +97,9 @@ impl Metric {
     }
 
     fn with(further: &[(Quantity, Form, f64)], space: &ParameterSpace) -> Self {
-        let mut numbers = LUBRICANTS.to_vec();
+        // Without lubricant ranges p_H and z follow from M and L.
+        let own = if space.is_rough() && !space.varies_lubricant() { 2 } else { LUBRICANTS.len() };
+        let mut numbers = LUBRICANTS[..own].to_vec();
         numbers.extend(further);
         numbers.extend(space.of_ellipses().then_some(SHAPE));
         let other = space.axes.iter().filter(|axis| !COUNTED.contains(&axis.quantity));
@@ -112,6 +114,11 @@ impl Metric {
     /// Returns the number of coordinates.
     pub fn len(&self) -> usize {
         self.numbers.len()
+    }
+
+    /// Returns true if a quantity is one of the numbers.
+    pub fn counts(&self, quantity: Quantity) -> bool {
+        self.numbers.iter().any(|(own, _, _)| *own == quantity)
     }
 
     /// True for a metric without numbers.

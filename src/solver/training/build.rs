@@ -125,7 +125,7 @@ impl<'a> WindowTraining<'a> {
             observer.progress(Progress { stage: stage.clone(), done, total });
             if solution.converged() {
                 let solution = if spec.tells_grid_costs() { solver.judged(solution) } else { solution };
-                Ok(Solved::new(*place, solution))
+                Ok(Solved::new(*place, solution, &self.grid))
             } else if observer.cancelled() {
                 Err(TrainingError::Cancelled)
             } else {
@@ -169,7 +169,10 @@ impl<'a> WindowTraining<'a> {
             let (pressure, deformation, mut snapshots) = bases(limits, positive, &grid, (&solutions, &own), shared)?;
             if cavitation == Cavitation::Complementarity {
                 for (snapshot, solution) in snapshots.iter_mut().zip(&solutions) {
-                    snapshot.fronts = fronts(&grid, |node| solution.pressure[node]);
+                    snapshot.fronts = match solution.fronts.is_empty() {
+                        true => fronts(&grid, |node| solution.pressure[node]),
+                        false => solution.fronts.clone(),
+                    };
                 }
             }
             let shapes = match (&grid, ratio == CIRCLES) {

@@ -169,6 +169,9 @@ fn lubricant(spec: &TrainingSpec) -> Result<(), Refused> {
     if spec.heats() {
         return thermal(spec);
     }
+    if range.is_rough() {
+        return rough(spec);
+    }
     let (slides, plateau) = (range.slides(), range.varies(Quantity::NewtonianPlateauRatio));
     let modulus = range.gives(Quantity::Modulus);
     match (slides, shear_thinning) {
@@ -182,6 +185,28 @@ fn lubricant(spec: &TrainingSpec) -> Result<(), Refused> {
         }
         (false, false) => Ok(()),
     }
+}
+
+/// Checks the parameter space of a training with rough surfaces: steady line contacts without sliding or shear-thinning.
+fn rough(spec: &TrainingSpec) -> Result<(), Refused> {
+    let (range, laws) = (&spec.range, &spec.lubricant);
+    let refuse = |field: &str, problem: &str| Err(Refused::new(field, problem));
+    if laws.roughness.is_none() {
+        return refuse("range.axes.SmoothFilmRatio", "needs the laws of rough surfaces");
+    }
+    if spec.contact() != ContactKind::Line {
+        return refuse("range.axes.SmoothFilmRatio", "is supported for line contacts only");
+    }
+    if range.slides() || laws.shear != ShearLaw::Newtonian {
+        return refuse("range.axes.SmoothFilmRatio", "is supported for Newtonian lubricants without SRR only");
+    }
+    if !matches!(spec.windows, Windows::Given(_)) {
+        return refuse("windows", "must be given for a range that varies the film ratio");
+    }
+    if spec.scheme != Scheme::Galerkin {
+        return refuse("scheme", "must be Galerkin for rough surfaces");
+    }
+    Ok(())
 }
 
 /// Refuses negative SRR, since film thickness is even in SRR, and SRR above `most`.

@@ -32,6 +32,8 @@ mod plan;
 mod point_tests;
 #[cfg(test)]
 mod resume_tests;
+#[cfg(test)]
+mod rough_tests;
 mod rows;
 #[cfg(test)]
 mod rupture_tests;

@@ -153,7 +153,7 @@ impl Training {
         let Some(spec) = document.training_spec().cloned() else { return };
         // The training uses the cavitation model of the contact, and its heat for a thermal model.
         let heat = document.lubricant.heat.filter(|_| spec.heats());
-        let spec = spec.under(document.lubricant.cavitation).heated(heat);
+        let spec = spec.under(document.lubricant.cavitation).heated(heat).on_surfaces(document.lubricant.roughness);
         match spec.check() {
             Ok(()) => self.run(ctx, TrainingState::new(spec)),
             Err(error) => self.notices = vec![Notice::wrong(error)],

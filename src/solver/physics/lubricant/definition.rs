@@ -52,8 +52,8 @@ pub(crate) struct WholeLubricant {
     roughness: Option<Roughness>,
 }
 
-/// Serialised form of the lubricant of a reduced model, which supports smooth surfaces only: `#[serde(with =
-/// "LubricantOfModel")]`.
+/// Serialised form of the lubricant of a reduced model, which mentions the roughness only for rough surfaces:
+/// `#[serde(with = "LubricantOfModel")]`.
 #[derive(Serialize, Deserialize)]
 #[serde(remote = "Lubricant", deny_unknown_fields)]
 pub(crate) struct LubricantOfModel {
@@ -63,7 +63,7 @@ pub(crate) struct LubricantOfModel {
     limiting_stress: Option<LimitingStress>,
     cavitation: Cavitation,
     heat: Option<Heat>,
-    #[serde(skip)]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     roughness: Option<Roughness>,
 }
 

@@ -1,0 +1,95 @@
+//! Tests of models of rough line contacts: agreement with full solutions in film thickness and asperity load share, for
+//! other roughnesses and asperity laws than those of the training as well.
+
+use super::small::{line_grid, trained};
+use super::*;
+use crate::solver::full::{ContactSolver, Problem, Solution, Start};
+use crate::solver::parameters::{Axis, ParameterSpace, Quantity, REFERENCE_ROUGHNESS_M, enlarged};
+use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::lubricant::Lubricant;
+use crate::solver::physics::surfaces::{AsperityLaw, Roughness};
+use crate::solver::reduced::{Online, ReducedError, ReducedOptions, Sampling, Trust};
+use std::sync::Arc;
+
+fn rough(sampling: Sampling) -> TrainingSpec {
+    let range = ParameterSpace::of([
+        Axis::new(Quantity::M, (15.0, 30.0)),
+        Axis::new(Quantity::L, (7.0, 10.0)),
+        Axis::new(Quantity::SmoothFilmRatio, (0.4, 2.0)),
+    ]);
+    let spec = TrainingSpec::new(range, (10.0, 40.0), line_grid(280), Plan::FarthestPoint { snapshots: 60 });
+    let (pressure_loss, rows_per_mode) = (1e-9, 3.5);
+    TrainingSpec { sampling, pressure_loss, rows_per_mode, evidence: 0, ..spec }.on_surfaces(None)
+}
+
+/// Returns the errors of H_c, relative to its size or to half the roughness, and of the asperity load share.
+fn errors(own: &Solution, truth: &Solution) -> [f64; 2] {
+    let sigma = truth.problem.rough.unwrap().sigma;
+    let share = |solution: &Solution| solution.mixed().unwrap().asperity_load_share;
+    let film = (own.scalars.h_c - truth.scalars.h_c).abs() / truth.scalars.h_c.abs().max(0.5 * sigma);
+    [film, (share(own) - share(truth)).abs()]
+}
+
+#[test]
+fn reduced_rough_contacts_are_the_full_ones() {
+    for (sampling, limits) in [(Sampling::All, [1e-3, 2e-4]), (Sampling::Cubature, [2e-3, 5e-4])] {
+        let spec = rough(sampling);
+        spec.check().unwrap();
+        let model = trained(&spec);
+        let mut online = Online::new(Arc::clone(&model), ReducedOptions::default());
+        let mut full = ContactSolver::on(&model.windows[0].grid);
+        for point in random_points(&spec.range, spec.contact(), 12, 77) {
+            online.forget();
+            let solved = online.solve(&point, spec.lubricant).unwrap();
+            assert_eq!(solved.trust, Trust::Trained);
+            let truth = full.solve(&point, spec.lubricant, Start::Cold, &()).unwrap();
+            let found = errors(&online.reconstruct(&solved).unwrap(), &truth);
+            assert!(found[0] < limits[0] && found[1] < limits[1], "{sampling:?}: {found:?} at {:?}", point.moes());
+        }
+    }
+}
+
+#[test]
+fn a_contact_of_another_roughness_and_law_is_covered() {
+    let spec = rough(Sampling::All);
+    let model = trained(&spec);
+    let mut online = Online::new(Arc::clone(&model), ReducedOptions::default());
+    let mut full = ContactSolver::on(&model.windows[0].grid);
+    let here = random_points(&spec.range, spec.contact(), 1, 5)[0];
+    let of_reference = online.solve(&here, spec.lubricant).unwrap();
+    // The same dimensionless contact, four times as large and as rough.
+    let large = enlarged(&here, 4.0);
+    let on = |roughness: Roughness| Lubricant { roughness: Some(roughness), ..spec.lubricant };
+    let lubricant = on(Roughness::new(4.0 * REFERENCE_ROUGHNESS_M));
+    let solved = online.solve(&large, lubricant).unwrap();
+    assert_eq!(solved.trust, Trust::Trained);
+    assert!((solved.h_c / of_reference.h_c - 1.0).abs() < 1e-7);
+    let plastic = AsperityLaw::ZhaoMaiettaChang { n_beta_sigma: 0.05, sigma_over_beta: 0.01, hardness: 3e9 };
+    let other = on(Roughness { asperities: plastic, peklenik: 3.0, ..Roughness::new(REFERENCE_ROUGHNESS_M) });
+    let solved = online.solve(&here, other).unwrap();
+    let truth = full.solve(&here, other, Start::Cold, &()).unwrap();
+    let found = errors(&online.reconstruct(&solved).unwrap(), &truth);
+    assert!(found[0] < 5e-3 && found[1] < 1e-3, "{found:?}");
+}
+
+#[test]
+fn a_model_of_rough_surfaces_refuses_smooth_ones_and_other_film_ratios_are_outside() {
+    let spec = rough(Sampling::All);
+    let model = trained(&spec);
+    let here = random_points(&spec.range, spec.contact(), 1, 5)[0];
+    let smooth = Lubricant { roughness: None, ..spec.lubricant };
+    let mut online = Online::new(Arc::clone(&model), ReducedOptions::default());
+    assert!(matches!(online.solve(&here, smooth), Err(ReducedError::Roughness { rough: false })));
+    let trust = |point: &OperatingPoint, lubricant| match model.trust(&Problem::new(point, lubricant).unwrap()) {
+        Trust::Outside(why) => why.to_string(),
+        Trust::Trained => String::new(),
+    };
+    assert_eq!(trust(&here, spec.lubricant), "");
+    assert_eq!(trust(&here, smooth), "the model was trained for rough surfaces");
+    let thick = Quantity::SmoothFilmRatio.at(&here, 8.0);
+    assert!(
+        trust(&thick, spec.lubricant).starts_with("λ of the smooth film = 8 lies"),
+        "{}",
+        trust(&thick, spec.lubricant)
+    );
+}
