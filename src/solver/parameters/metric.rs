@@ -179,4 +179,20 @@ mod tests {
             }
         }
     }
+
+    #[test]
+    fn places_of_rough_contacts_are_load_lubricant_and_film_ratio() {
+        let space = ParameterSpace::of([
+            Axis::new(Quantity::M, (10.0, 100.0)),
+            Axis::new(Quantity::L, (3.0, 13.0)),
+            Axis::new(Quantity::SmoothFilmRatio, (0.1, 5.0)),
+        ]);
+        let (metric, here) = (Metric::of_solutions(&space), OperatingPoint::TABLE_2_1);
+        assert_eq!(metric.len(), 3);
+        for axis in &space.axes {
+            assert!(metric.counts(axis.quantity));
+            let moved = axis.quantity.at(&here, 1.5 * axis.quantity.of(&here).unwrap());
+            assert!(apart(metric.place(&here), metric.place(&moved)) > 1e-6, "{:?}", axis.quantity);
+        }
+    }
 }

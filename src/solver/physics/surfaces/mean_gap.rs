@@ -39,9 +39,9 @@ fn deep_gap(x: f64, density: f64) -> (f64, f64) {
 }
 
 /// Returns the separation l at which the mean gap has a value T > 0, the inverse of [`mean_gap`]. Newton's method for
-/// ln T, which is concave.
+/// ln T, which is concave, so that it converges from the smaller separation at which it starts.
 pub fn separation_of_gap(gap: f64) -> f64 {
-    let mut l = if gap > 1.0 { gap } else { 1.5 * gap.ln() };
+    let mut l = if gap > 1.0 { gap } else { -(-2.0 * gap.ln()).sqrt() };
     for _ in 0..60 {
         let (own, slope) = mean_gap(l);
         if own <= 0.0 || own.is_nan() {
