@@ -81,7 +81,8 @@ pub fn best<'a, T>(
     judged.min_by(|(a, _), (b, _)| a.cmp(b)).map(|(_, model)| model)
 }
 
-/// Returns true if two models are alternatives: same contact kind, surfaces, heat, shear law and shape, and overlapping loads.
+/// Returns true if two models are alternatives: same contact kind, surfaces, heat, shear law and shape, and overlapping
+/// loads.
 pub fn alike(one: &Domain, other: &Domain) -> bool {
     let kind = |domain: &Domain| (domain.contact, domain.space.of_ellipses(), domain.heats(), domain.is_rough());
     let law = |domain: &Domain| discriminant(&domain.lubricant.shear);
