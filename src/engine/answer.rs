@@ -125,7 +125,9 @@ fn by_model(
             warnings.extend(solved.by_neighbour.then_some(Warning::NeighbouringModel));
             traction = solved.traction;
             // Sliding affects the traction of a Newtonian lubricant, but not its film.
-            solution = Some(online.reconstruct(&solved)?.of_problem(*problem));
+            let fields = online.reconstruct(&solved)?.of_problem(*problem);
+            facts.error = facts.error.map(|error| error.with_boundary_friction(&fields));
+            solution = Some(fields);
         }
         Err(ReducedError::Cancelled) => return Err(EngineError::Cancelled),
         Err(error) => {

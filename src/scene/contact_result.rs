@@ -244,6 +244,7 @@ const VALUES: [(&str, In, Get); names::ALL.len()] = [
     (names::H_MIN_BOUND, In::Result, |r| number(r.reduced.as_ref()?.error?.h_min.bound)),
     (names::TRACTION_BOUND, In::Result, |r| number(r.reduced.as_ref()?.error?.traction?.bound)),
     (names::RISE_BOUND, In::Heat, |r| number(r.reduced.as_ref()?.error?.rise?.bound)),
+    (names::LOAD_SHARE_BOUND, In::Mixed, |r| number(r.reduced.as_ref()?.error?.load_share?.bound)),
     (names::WALL_S, In::Result, |r| number(r.wall_s)),
 ];
 

@@ -312,7 +312,9 @@ impl Online {
         });
         if let Some(estimate) = solved.error.as_mut().filter(|estimate| estimate.traction.is_some()) {
             // No error estimate for an unphysical traction, nor for one limited in a way that was not trained.
+            // Of rough contacts it was measured with a limiting stress.
             let meant = problem.traction_warning().is_none()
+                && (problem.rough.is_none() || problem.lubricant.limiting_stress.is_some())
                 && (knows_traction || !(domain.is_shear_thinning() && domain.space.varies_lubricant()));
             estimate.traction = estimate.traction.filter(|_| meant);
         }

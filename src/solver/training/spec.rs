@@ -185,10 +185,10 @@ impl TrainingSpec {
     }
 
     /// Returns the same training with the laws of rough surfaces, if its range varies the film ratio: then its contacts
-    /// have the reference roughness. Otherwise they are smooth.
+    /// have the reference roughness, and no shear flow. Otherwise they are smooth.
     pub fn on_surfaces(self, roughness: Option<Roughness>) -> Self {
         let sigma = REFERENCE_ROUGHNESS_M;
-        let laws = Roughness { sigma, ..roughness.unwrap_or(Roughness::new(sigma)) };
+        let laws = Roughness { sigma, shear_flow: 0.0, ..roughness.unwrap_or(Roughness::new(sigma)) };
         let rough = self.range.is_rough().then_some(laws);
         Self { lubricant: self.lubricant.on_rough_surfaces(rough), ..self }
     }
