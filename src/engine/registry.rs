@@ -102,6 +102,7 @@ mod tests {
     use crate::scene::named_lubricant::SQUALANE_PIP;
     use crate::solver::physics::contact::{ContactKind, MoesRequest, si_from_moes};
     use crate::solver::physics::lubricant::{Heat, ViscosityLaw};
+    use crate::solver::physics::surfaces::Roughness;
 
     fn serves(point: &OperatingPoint, lubricant: &Lubricant) -> &'static str {
         best(catalogue().iter().map(|entry| (entry.name, &entry.domain)), point, lubricant).unwrap()
@@ -116,6 +117,7 @@ mod tests {
         let oil = Lubricant::default();
         let eyring = Lubricant { shear: ShearLaw::Eyring { critical_stress: 5e6, npr: 0.0 }, ..oil };
         let warm = Lubricant { heat: Some(Heat::default()), ..oil };
+        let rough = oil.on_rough_surfaces(Some(Roughness::new(1e-7)));
         for (point, lubricant, wanted) in [
             (circle, oil, "point"),
             (Quantity::RadiusRatio.at(&circle, 1.0), oil, "point"),
@@ -129,6 +131,8 @@ mod tests {
             (circle, eyring, "point_sliding"),
             (ellipse, eyring, "point_sliding"),
             (light, eyring, "point_light_sliding"),
+            (line, rough, "line_rough"),
+            (at(ContactKind::Line, 900.0), rough, "line_rough"),
             (line, warm, "line_heat"),
             (circle, warm, "point_heat"),
             (ellipse, warm, "point_heat"),

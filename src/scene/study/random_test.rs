@@ -20,7 +20,7 @@ use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::warning::Warning;
 use fastrand::Rng;
-use rows::COMPARED;
+use rows::{Asperities, COMPARED};
 use serde::{Deserialize, Serialize};
 use std::sync::{Mutex, PoisonError};
 
@@ -101,7 +101,7 @@ impl RandomTest {
                     traction: result.traction.unwrap_or(f64::NAN),
                     rises: solution.heat.as_ref().map(|heat| heat.central),
                     grid_cost: solution.grid_cost,
-                    rough: solution.mixed().zip(solution.problem.rough).map(Asperities::of),
+                    rough: Asperities::of(solution),
                 }),
                 newton_iterations: result.newton_iterations,
                 wall_s: result.wall_s,

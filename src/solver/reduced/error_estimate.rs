@@ -1,7 +1,7 @@
 //! Estimated errors of a reduced solution, and an allowance for a cavitation model that differs from the one by which
 //! the errors were measured.
 
-use crate::solver::full::Solution;
+use crate::solver::full::Mixed;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::Cavitation;
 use serde::{Deserialize, Serialize};
@@ -43,15 +43,12 @@ const MOVES_H_C: f64 = 3.5e-7;
 const MOVES_H_MIN: (f64, f64) = (2e-6, 4e-8);
 
 impl ErrorEstimate {
-    /// Converts the estimate of the film's friction to that of the whole friction of rough surfaces: the boundary
-    /// films add μ_b times the asperity load share. Returns the estimate itself for smooth surfaces.
-    pub fn with_boundary_friction(mut self, solution: &Solution) -> Self {
-        let Some((mixed, roughness)) = solution.mixed().zip(solution.problem.lubricant.roughness) else { return self };
+    /// Converts the estimate of the film's friction to that of the whole friction of rough surfaces: boundary films add
+    /// the boundary friction coefficient times the asperity load share.
+    pub fn with_boundary_friction(mut self, mixed: &Mixed, boundary_friction: f64) -> Self {
         let whole = (mixed.fluid_traction + mixed.boundary_traction).abs();
         let sum = |(fluid, share): (Estimated, Estimated)| {
-            let of = |fluid: f64, share: f64| {
-                (fluid * mixed.fluid_traction.abs() + share * roughness.boundary_friction) / whole
-            };
+            let of = |fluid: f64, share: f64| (fluid * mixed.fluid_traction.abs() + share * boundary_friction) / whole;
             Estimated { likely: of(fluid.likely, share.likely), bound: of(fluid.bound, share.bound) }
         };
         self.traction = self.traction.zip(self.load_share).filter(|_| whole > 0.0).map(sum);

@@ -156,7 +156,7 @@ fn lubricant(spec: &TrainingSpec) -> Result<(), Refused> {
                 "varies the viscosity, which needs Roelands’ law, but the lubricant has another one",
             );
         }
-        if !matches!(spec.windows, Windows::Anchored { .. }) {
+        if !range.is_rough() && !matches!(spec.windows, Windows::Anchored { .. }) {
             return refuse("windows", "must be `Anchored(…)` for a range that varies the viscosity");
         }
         if shear_thinning && !heat && !eyring {
@@ -309,6 +309,9 @@ fn given(spec: &TrainingSpec, windows: &[WindowSpec]) -> Result<(), Refused> {
     }
     if windows.windows(2).any(apart) {
         return refuse("must have their intervals of radius_ratio in ascending order, or none of them any".to_owned());
+    }
+    for loss in windows.iter().filter_map(|window| window.pressure_loss) {
+        number("windows.pressure_loss", loss, 1e-15, 0.5)?;
     }
     let (low, high) = spec.domain().m();
     match windows.iter().find(|w| w.m.1 < low || w.m.0 > high) {

@@ -118,10 +118,8 @@ impl Corrector {
         let full = self.full.get_or_insert_with(|| ContactSolver::on(&self.grid));
         let after =
             if converged { full_solution(full, &before)? } else { full.corrected(&before, CORRECTIONS).ok()? };
-        // The mean planes of rough surfaces may pass each other: errors of thinner films are relative to σ/2.
-        let least = before.problem.rough.map_or(0.0, |rough| 0.5 * rough.sigma);
         let relative = |from: f64, to: f64| (from / to - 1.0).abs();
-        let change = |from: f64, to: f64| if to.abs() < least { (from - to).abs() / least } else { relative(from, to) };
+        let change = |from: f64, to: f64| before.problem.film_difference(from, to).abs();
         let (from, to) = (&before.scalars, &after.scalars);
         let (mut difference, mut size) = ((from.h_0 - to.h_0).powi(2), to.h_0.powi(2));
         for (node, was) in before.deformation().into_iter().enumerate() {

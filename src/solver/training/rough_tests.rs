@@ -1,26 +1,15 @@
 //! Tests of models of rough line contacts: agreement with full solutions in film thickness and asperity load share, for
 //! other roughnesses and asperity laws than those of the training as well.
 
-use super::small::{line_grid, trained};
+use super::small::{rough, rough_bounded, trained};
 use super::*;
 use crate::solver::full::{ContactSolver, Problem, Solution, Start};
-use crate::solver::parameters::{Axis, ParameterSpace, Quantity, REFERENCE_ROUGHNESS_M, enlarged};
+use crate::solver::parameters::{Quantity, REFERENCE_ROUGHNESS_M, enlarged};
 use crate::solver::physics::contact::OperatingPoint;
-use crate::solver::physics::lubricant::Lubricant;
+use crate::solver::physics::lubricant::{LimitingStress, Lubricant};
 use crate::solver::physics::surfaces::{AsperityLaw, Roughness};
 use crate::solver::reduced::{Online, ReducedError, ReducedOptions, Sampling, Trust};
 use std::sync::Arc;
-
-fn rough(sampling: Sampling) -> TrainingSpec {
-    let range = ParameterSpace::of([
-        Axis::new(Quantity::M, (15.0, 30.0)),
-        Axis::new(Quantity::L, (7.0, 10.0)),
-        Axis::new(Quantity::SmoothFilmRatio, (0.4, 2.0)),
-    ]);
-    let spec = TrainingSpec::new(range, (10.0, 40.0), line_grid(280), Plan::FarthestPoint { snapshots: 60 });
-    let (pressure_loss, rows_per_mode) = (1e-9, 3.5);
-    TrainingSpec { sampling, pressure_loss, rows_per_mode, evidence: 0, ..spec }.on_surfaces(None)
-}
 
 /// Returns the errors of H_c, relative to its size or to half the roughness, and of the asperity load share.
 fn errors(own: &Solution, truth: &Solution) -> [f64; 2] {
@@ -92,4 +81,38 @@ fn a_model_of_rough_surfaces_refuses_smooth_ones_and_other_film_ratios_are_outsi
         "{}",
         trust(&thick, spec.lubricant)
     );
+}
+
+#[test]
+fn errors_of_film_load_share_and_friction_are_bounded() {
+    let spec = rough_bounded();
+    let model = trained(&spec);
+    let mut online = Online::new(Arc::clone(&model), ReducedOptions::default());
+    let mut full = ContactSolver::on(&model.windows[0].grid);
+    let limit = LimitingStress { ambient: 0.0, slope: 0.06, eyring: Some(4e6) };
+    let lubricant = Lubricant { limiting_stress: Some(limit), ..spec.lubricant };
+    let points = random_points(&spec.range, spec.contact(), 60, 41);
+    let mut held = [0; 3];
+    for (k, mut point) in points.iter().copied().enumerate() {
+        point.sliding.slide_to_roll_ratio = [0.01, 0.1, 1.0][k % 3];
+        let solved = online.solve(&point, lubricant).unwrap();
+        let own = online.reconstruct(&solved).unwrap();
+        let truth = full.solve(&point, lubricant, Start::Cold, &()).unwrap();
+        let (mixed, true_one) = (own.mixed().unwrap(), truth.mixed().unwrap());
+        let estimate = solved.error.unwrap();
+        // The boundary friction coefficient is 0.12.
+        let whole = estimate.with_boundary_friction(&mixed, 0.12);
+        let [film, share] = errors(&own, &truth);
+        let friction = (own.traction_coefficient() / truth.traction_coefficient() - 1.0).abs();
+        let bounds = [estimate.h_c, estimate.load_share.unwrap(), whole.traction.unwrap()];
+        for ((error, bound), held) in [film, share, friction].into_iter().zip(bounds).zip(&mut held) {
+            *held += usize::from(error <= bound.bound);
+        }
+        assert!(true_one.asperity_load_share > 0.0);
+    }
+    assert!(held.iter().all(|held| *held >= 57), "{held:?} of 60");
+    // Without a limiting stress friction is no evidence.
+    let mut sliding = points[0];
+    sliding.sliding.slide_to_roll_ratio = 0.1;
+    assert_eq!(online.solve(&sliding, spec.lubricant).unwrap().error.unwrap().traction, None);
 }

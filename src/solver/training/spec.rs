@@ -332,12 +332,15 @@ pub struct WindowSpec {
     /// M and L of its anchor, if the training selects anchors.
     #[serde(default)]
     pub anchor: Option<(f64, f64)>,
+    /// Truncation of its pressure modes; `None` for that of the training. Thick films allow a larger one.
+    #[serde(default)]
+    pub pressure_loss: Option<f64>,
 }
 
 impl WindowSpec {
     /// Creates a local model of line or circular contacts.
     pub fn new(m: (f64, f64), grid: GridSpec) -> Self {
-        Self { m, grid, radius_ratio: None, anchor: None }
+        Self { m, grid, radius_ratio: None, anchor: None, pressure_loss: None }
     }
 
     /// Returns true if another local model has the same radius ratios.

@@ -243,7 +243,7 @@ impl Training {
         let known = [("in the program", embedded), ("in use", in_use), ("before", self.former.clone())];
         let known = known.into_iter().filter_map(|(name, model)| Some((name.to_owned(), model?)));
         let made = self.made.iter().map(|made| ("new".to_owned(), Arc::clone(&made.model)));
-        let kind = |domain: &Domain| (domain.contact, domain.space.of_ellipses(), domain.heats());
+        let kind = |domain: &Domain| (domain.contact, domain.space.of_ellipses(), domain.heats(), domain.is_rough());
         let mut models: Vec<(String, Arc<ReducedModel>)> = Vec::new();
         // The trained model keeps its name even if it is in use.
         let is_made = |model: &Arc<ReducedModel>| self.made.iter().any(|made| Arc::ptr_eq(&made.model, model));

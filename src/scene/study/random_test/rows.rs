@@ -2,9 +2,8 @@
 
 use crate::scene::{Method, Table, names};
 use crate::solver::full::heat::Rises;
-use crate::solver::full::{GridCost, Mixed, Scalars, Solution};
+use crate::solver::full::{GridCost, Scalars, Solution};
 use crate::solver::physics::contact::OperatingPoint;
-use crate::solver::physics::surfaces::ScaledRoughness;
 use crate::solver::reduced::ErrorEstimate;
 use crate::solver::warning::Warning;
 use serde::{Deserialize, Serialize};
@@ -62,13 +61,14 @@ pub struct Film {
 pub struct Asperities {
     /// Share of the load that asperities carry.
     pub load_share: f64,
-    /// Composite roughness in units of the film thickness.
-    pub sigma: f64,
+    /// Smallest film thickness to which errors are relative.
+    pub least_film: f64,
 }
 
 impl Asperities {
-    pub(super) fn of((mixed, rough): (Mixed, ScaledRoughness)) -> Self {
-        Self { load_share: mixed.asperity_load_share, sigma: rough.sigma }
+    pub(super) fn of(solution: &Solution) -> Option<Self> {
+        let load_share = solution.mixed()?.asperity_load_share;
+        Some(Self { load_share, least_film: solution.problem.least_film() })
     }
 }
 
@@ -124,7 +124,7 @@ impl Film {
         let traction = if full.traction_warning().is_none() { full.traction_coefficient() } else { f64::NAN };
         let Solution { scalars: Scalars { h_c, h_min, .. }, grid_cost, .. } = *full;
         let rises = full.heat.as_ref().map(|heat| heat.central);
-        let rough = full.mixed().zip(full.problem.rough).map(Asperities::of);
+        let rough = Asperities::of(full);
         Self { h_c, h_min, traction, rises, grid_cost, rough }
     }
 
@@ -140,7 +140,7 @@ impl Film {
     /// a full solution, and the absolute error of the asperity load share; `None` for missing values. For a rise below
     /// 1 K, the error is in kelvin. Errors of films thinner than σ/2 are relative to σ/2.
     pub fn errors(&self, full: &Self) -> [Option<f64>; 5] {
-        let least = full.rough.map_or(0.0, |rough| 0.5 * rough.sigma);
+        let least = full.rough.map_or(0.0, |rough| rough.least_film);
         let relative = |own: f64, full: f64, least: f64| {
             let error = if full.abs() < least { (own - full).abs() / least } else { (own / full - 1.0).abs() };
             Some(error).filter(|error| error.is_finite())
