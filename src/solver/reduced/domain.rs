@@ -163,6 +163,7 @@ impl Domain {
         }
         let found = self.other_shape(&problem.point).or_else(|| self.other_plateau(problem));
         let found = found.or_else(|| self.other_constants(&problem.lubricant));
+        let found = found.or_else(|| self.other_surfaces(problem));
         found.or_else(|| self.outside(problem, |_| true)).map_or(Trust::Trained, Trust::Outside)
     }
 

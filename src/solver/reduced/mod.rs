@@ -26,6 +26,7 @@ mod online;
 mod operators;
 mod pod;
 mod reduced_solution;
+mod rough_domain;
 mod row_sizes;
 mod sampling;
 mod shapes;

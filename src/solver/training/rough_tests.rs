@@ -75,6 +75,21 @@ fn a_model_of_rough_surfaces_refuses_smooth_ones_and_other_film_ratios_are_outsi
     };
     assert_eq!(trust(&here, spec.lubricant), "");
     assert_eq!(trust(&here, smooth), "the model was trained for rough surfaces");
+    let with = |roughness: Roughness| Lubricant { roughness: Some(roughness), ..spec.lubricant };
+    let usual = Roughness::new(REFERENCE_ROUGHNESS_M);
+    let hard = AsperityLaw::GreenwoodTripp { eta_beta_sigma: 0.1, sigma_over_beta: 0.01 };
+    let stiffer = AsperityLaw::GreenwoodTripp { eta_beta_sigma: 0.053, sigma_over_beta: 0.01 };
+    assert_eq!(trust(&here, with(Roughness { asperities: stiffer, ..usual })), "");
+    assert_eq!(
+        trust(&here, with(Roughness { asperities: hard, ..usual })),
+        "asperities carry 4.00 times the pressure of those of the training (0.5…1.2)"
+    );
+    assert!(trust(&here, with(Roughness { peklenik: 6.0, ..usual })).starts_with("the Peklenik number 6.00 lies"));
+    let mut sliding = here;
+    sliding.sliding.slide_to_roll_ratio = -1.0;
+    let sheared = with(Roughness { shear_flow: 0.5, ..usual });
+    assert_eq!(trust(&here, sheared), "");
+    assert!(trust(&sliding, sheared).starts_with("the shear flow ½ |SRR (σ₁² − σ₂²)|/σ² = 0.25 exceeds"));
     let thick = Quantity::SmoothFilmRatio.at(&here, 8.0);
     assert!(
         trust(&thick, spec.lubricant).starts_with("λ of the smooth film = 8 lies"),
