@@ -133,7 +133,10 @@ fn by_model(
             warnings.push(Warning::NoReducedSolution { reason: error.to_string() });
         }
     }
-    let result = ContactResult::new(request, solution.as_ref(), Some((facts, own, traction)), effort);
+    let mut result = ContactResult::new(request, solution.as_ref(), Some((facts, own, traction)), effort);
+    if let (Some(facts), Some(mixed), Some(rough)) = (&mut result.reduced, &result.mixed, problem.lubricant.roughness) {
+        facts.error = facts.error.map(|error| error.with_boundary_friction(mixed, rough.boundary_friction));
+    }
     Ok(Answer { request: request.clone(), result: ContactResult { warnings, ..result }, solution })
 }
 

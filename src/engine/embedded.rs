@@ -26,7 +26,7 @@ macro_rules! held {
 }
 
 /// Names of the steady models with the embedded part of their files. Scenes in `scenes/training` train them.
-const MODELS: [(&str, &[u8]); 11] = [
+const MODELS: [(&str, &[u8]); 12] = [
     ("line", held!("../../assets/line.rom")),
     ("line_shear", held!("../../assets/line_shear.rom")),
     ("point", held!("../../assets/point.rom")),
@@ -38,6 +38,7 @@ const MODELS: [(&str, &[u8]); 11] = [
     ("line_sliding", held!("../../assets/line_sliding.rom")),
     ("point_sliding", held!("../../assets/point_sliding.rom")),
     ("point_light_sliding", held!("../../assets/point_light_sliding.rom")),
+    ("line_rough", held!("../../assets/line_rough.rom")),
 ];
 
 /// Catalogue entry of an embedded model.

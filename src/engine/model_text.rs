@@ -115,8 +115,11 @@ fn describe_domain(domain: &Domain) -> String {
     ];
     let lists = lists.into_iter().filter(|(_, list)| !list.is_empty());
     let mut text: String = lists.map(|(name, list)| format!("  {name}: {}\n", list.join(", "))).collect();
-    let Lubricant { density, viscosity, shear, heat, .. } = domain.lubricant;
+    let Lubricant { density, viscosity, shear, heat, roughness, .. } = domain.lubricant;
     let _ = writeln!(text, "  density {density:?}, viscosity {viscosity:?}, shear {shear:?}");
+    if let Some(rough) = roughness {
+        let _ = writeln!(text, "  rough surfaces, trained with {:?}, γ {}", rough.asperities, rough.peklenik);
+    }
     if let Some(heat) = heat {
         let _ = writeln!(text, "  thermal, inlet {} K", heat.inlet_temperature);
     }

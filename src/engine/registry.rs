@@ -11,11 +11,11 @@ use std::mem::discriminant;
 /// Ranking of a model for a contact; the smallest value is best.
 ///
 /// Models that cover the contact come first, among these the one for its shape with the smallest range. Models that do
-/// not cover it are ranked by agreement in heat, shear law, shape and lubricant, then by the distance in M.
+/// not cover it are ranked by agreement in surfaces, heat, shear law, shape and lubricant, then by the distance in M.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Remoteness {
     outside: bool,
-    kinds: [u8; 4],
+    kinds: [u8; 5],
     far: f64,
 }
 
@@ -24,7 +24,7 @@ impl Remoteness {
         let outside = problem.is_none_or(|problem| domain.trust(problem) != Trust::Trained);
         let other_shape = domain.space.of_ellipses() != point.is_elliptic();
         if !outside {
-            return Self { outside, kinds: [other_shape.into(), 0, 0, 0], far: extent(domain) };
+            return Self { outside, kinds: [other_shape.into(), 0, 0, 0, 0], far: extent(domain) };
         }
         let law = match (
             discriminant(&domain.lubricant.shear) == discriminant(&lubricant.shear),
@@ -33,11 +33,16 @@ impl Remoteness {
             (true, _) => 0,
             (false, thinning) => 1 + u8::from(thinning != is_shear_thinning(&domain.lubricant)),
         };
+        let other_surfaces = domain.is_rough() != lubricant.is_rough();
         let other_heat = domain.heats() != lubricant.heat.is_some();
         let other_lubricant = !domain.is_of(lubricant);
         let ((low, high), m) = (domain.m(), point.moes().m);
         let far = (low / m).max(m / high).max(1.0).ln();
-        Self { outside, kinds: [other_heat.into(), law, other_shape.into(), other_lubricant.into()], far }
+        Self {
+            outside,
+            kinds: [other_surfaces.into(), other_heat.into(), law, other_shape.into(), other_lubricant.into()],
+            far,
+        }
     }
 
     fn cmp(&self, other: &Self) -> Ordering {
@@ -76,9 +81,10 @@ pub fn best<'a, T>(
     judged.min_by(|(a, _), (b, _)| a.cmp(b)).map(|(_, model)| model)
 }
 
-/// Returns true if two models are alternatives: same contact kind, heat, shear law and shape, and overlapping loads.
+/// Returns true if two models are alternatives: same contact kind, surfaces, heat, shear law and shape, and overlapping
+/// loads.
 pub fn alike(one: &Domain, other: &Domain) -> bool {
-    let kind = |domain: &Domain| (domain.contact, domain.space.of_ellipses(), domain.heats());
+    let kind = |domain: &Domain| (domain.contact, domain.space.of_ellipses(), domain.heats(), domain.is_rough());
     let law = |domain: &Domain| discriminant(&domain.lubricant.shear);
     kind(one) == kind(other) && law(one) == law(other) && loads_in_common(one, other) > 0.0
 }
@@ -96,6 +102,7 @@ mod tests {
     use crate::scene::named_lubricant::SQUALANE_PIP;
     use crate::solver::physics::contact::{ContactKind, MoesRequest, si_from_moes};
     use crate::solver::physics::lubricant::{Heat, ViscosityLaw};
+    use crate::solver::physics::surfaces::Roughness;
 
     fn serves(point: &OperatingPoint, lubricant: &Lubricant) -> &'static str {
         best(catalogue().iter().map(|entry| (entry.name, &entry.domain)), point, lubricant).unwrap()
@@ -110,6 +117,7 @@ mod tests {
         let oil = Lubricant::default();
         let eyring = Lubricant { shear: ShearLaw::Eyring { critical_stress: 5e6, npr: 0.0 }, ..oil };
         let warm = Lubricant { heat: Some(Heat::default()), ..oil };
+        let rough = oil.on_rough_surfaces(Some(Roughness::new(1e-7)));
         for (point, lubricant, wanted) in [
             (circle, oil, "point"),
             (Quantity::RadiusRatio.at(&circle, 1.0), oil, "point"),
@@ -123,6 +131,8 @@ mod tests {
             (circle, eyring, "point_sliding"),
             (ellipse, eyring, "point_sliding"),
             (light, eyring, "point_light_sliding"),
+            (line, rough, "line_rough"),
+            (at(ContactKind::Line, 900.0), rough, "line_rough"),
             (line, warm, "line_heat"),
             (circle, warm, "point_heat"),
             (ellipse, warm, "point_heat"),

@@ -11,6 +11,7 @@ use crate::host::clock::Stopwatch;
 use crate::host::worker;
 use crate::scene::atomic_file::{self, WriteError};
 use crate::solver::physics::lubricant::{Cavitation, Heat, Lubricant};
+use crate::solver::physics::surfaces::Roughness;
 use crate::solver::training::{TrainingSpec, TrainingState, Windows};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -93,30 +94,31 @@ fn with_suffix(path: &Path, suffix: &str) -> PathBuf {
     name.into()
 }
 
-/// State with the parts of the lubricant that are not serialised with it: cavitation model and heat. Heat is stored as
-/// JSON, since its serialised form leaves fields out.
+/// State with the parts of the lubricant that are not serialised with it: cavitation model, heat and roughness. The
+/// latter two are stored as JSON, since their serialised forms leave fields out.
 #[derive(Serialize, Deserialize)]
 struct Whole<'a>(Cow<'a, TrainingState>, Cavitation, String);
 
 impl<'a> Whole<'a> {
     fn of(state: &'a TrainingState) -> Self {
-        let Lubricant { cavitation, heat, .. } = state.spec.lubricant;
-        Self(Cow::Borrowed(state), cavitation, serde_json::to_string(&heat).unwrap_or_default())
+        let Lubricant { cavitation, heat, roughness, .. } = state.spec.lubricant;
+        Self(Cow::Borrowed(state), cavitation, serde_json::to_string(&(heat, roughness)).unwrap_or_default())
     }
 }
 
 impl TryFrom<Whole<'_>> for TrainingState {
     type Error = serde_json::Error;
 
-    fn try_from(Whole(state, cavitation, heat): Whole<'_>) -> Result<Self, Self::Error> {
-        let (mut state, heat): (Self, Option<Heat>) = (state.into_owned(), serde_json::from_str(&heat)?);
-        state.spec = state.spec.under(cavitation).heated(heat);
+    fn try_from(Whole(state, cavitation, further): Whole<'_>) -> Result<Self, Self::Error> {
+        let (heat, roughness): (Option<Heat>, Option<Roughness>) = serde_json::from_str(&further)?;
+        let mut state: Self = state.into_owned();
+        state.spec = state.spec.under(cavitation).heated(heat).on_surfaces(roughness);
         Ok(state)
     }
 }
 
-/// Module for `#[serde(with = "training_file::whole")]`: serialises a state with the cavitation model and heat of its
-/// lubricant.
+/// Module for `#[serde(with = "training_file::whole")]`: serialises a state with the cavitation model, heat and
+/// roughness of its lubricant.
 pub mod whole {
     use super::{TrainingState, Whole};
     use serde::de::Error as _;
@@ -381,7 +383,15 @@ mod tests {
         let (grid, plan) = (GridSpec::EXPLORER, Plan::FarthestPoint { snapshots: 8 });
         let spec = TrainingSpec { title: "kept".to_owned(), ..TrainingSpec::new(range, (10.0, 20.0), grid, plan) };
         let point = OperatingPoint::TABLE_2_1;
-        let solved = Solved { place: 0, point, pressure: vec![0.5; 633], h_0: -0.1, h_c: 0.04, grid_cost: None };
+        let solved = Solved {
+            place: 0,
+            point,
+            pressure: vec![0.5; 633],
+            h_0: -0.1,
+            h_c: 0.04,
+            grid_cost: None,
+            fronts: Vec::new(),
+        };
         let window = WindowState {
             window: WindowSpec::new((10.0, 20.0), GridSpec::EXPLORER),
             seed: 1,

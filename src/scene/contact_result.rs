@@ -244,6 +244,7 @@ const VALUES: [(&str, In, Get); names::ALL.len()] = [
     (names::H_MIN_BOUND, In::Result, |r| number(r.reduced.as_ref()?.error?.h_min.bound)),
     (names::TRACTION_BOUND, In::Result, |r| number(r.reduced.as_ref()?.error?.traction?.bound)),
     (names::RISE_BOUND, In::Heat, |r| number(r.reduced.as_ref()?.error?.rise?.bound)),
+    (names::LOAD_SHARE_BOUND, In::Mixed, |r| number(r.reduced.as_ref()?.error?.load_share?.bound)),
     (names::WALL_S, In::Result, |r| number(r.wall_s)),
 ];
 
@@ -311,6 +312,11 @@ impl ContactResult {
         let converged = solution.filter(|solution| solution.converged());
         let slides = point.sliding.slide_to_roll_ratio != 0.0;
         let by_model = reduced.as_ref().and_then(|(.., traction)| *traction).filter(|_| slides);
+        let mixed = converged.and_then(Solution::mixed);
+        let traction = |solution: &Solution| match mixed {
+            Some(mixed) => mixed.fluid_traction + mixed.boundary_traction,
+            None => by_model.unwrap_or_else(|| solution.traction_coefficient()),
+        };
         Self {
             point: *point,
             extent: *extent,
@@ -324,13 +330,13 @@ impl ContactResult {
             cavitation: reduced.as_ref().map_or(lubricant.cavitation, |(_, own, _)| *own),
             meniscus: converged.and_then(Solution::meniscus),
             scalars: converged.map(|solution| solution.scalars),
-            traction: converged.map(|solution| by_model.unwrap_or_else(|| solution.traction_coefficient())),
+            traction: converged.map(traction),
             rolling_resistance: converged.map(Solution::rolling_resistance),
             residual_norm: solution.map(|solution| solution.report.residual_norm),
             newton_iterations,
             linear_iterations,
             wall_s,
-            mixed: converged.and_then(Solution::mixed),
+            mixed,
             heat: converged.and_then(|solution| solution.heat.as_deref()).map(HeatFacts::from),
             reduced: reduced.map(|(facts, ..)| facts),
         }

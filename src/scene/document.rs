@@ -163,11 +163,13 @@ impl Scene {
         }
     }
 
-    /// Returns the training that the scene describes, with its cavitation model and heat; `None` if its study is not a
+    /// Returns the training that the scene describes, with its cavitation model, heat and surfaces; `None` if its study is not a
     /// training.
     pub fn training(&self) -> Option<TrainingSpec> {
         match &self.study {
-            Study::Training(spec) => Some(spec.clone().under(self.cavitation).heated(self.heat)),
+            Study::Training(spec) => {
+                Some(spec.clone().under(self.cavitation).heated(self.heat).on_surfaces(self.roughness))
+            }
             _ => None,
         }
     }

@@ -96,6 +96,7 @@ names! {
     H_MIN_BOUND "reduced.h_min_error_bound"
     TRACTION_BOUND "reduced.traction_error_bound"
     RISE_BOUND "reduced.mid_film_rise_error_bound"
+    LOAD_SHARE_BOUND "reduced.load_share_error_bound"
     WALL_S "wall_s"
 }
 
@@ -104,8 +105,8 @@ pub const STATUS: &str = "status";
 /// Column with the reason why a row has no result.
 pub const REASON: &str = "reason";
 
-/// Error bounds of H_c, H_min, traction and temperature rise at mid-film.
-pub const BOUNDS: [&str; 4] = [H_C_BOUND, H_MIN_BOUND, TRACTION_BOUND, RISE_BOUND];
+/// Error bounds of H_c, H_min, traction, temperature rise at mid-film, and asperity load share.
+pub const BOUNDS: [&str; 5] = [H_C_BOUND, H_MIN_BOUND, TRACTION_BOUND, RISE_BOUND, LOAD_SHARE_BOUND];
 
 /// Returns the name of a value computed by one of several methods: `full.H_c`.
 pub fn by(method: &str, name: &str) -> String {

@@ -38,10 +38,9 @@ impl Scene {
         }
         if self.roughness.is_some() {
             self.laws().check().map_err(|problem| refuse("roughness", format!("is refused: {problem}")))?;
-            if matches!(self.study, Study::Training(_)) {
-                return Err(
-                    refuse("roughness", "must be left out: reduced models are trained for smooth surfaces").into()
-                );
+            if matches!(&self.study, Study::Training(spec) if !spec.range.is_rough()) {
+                let problem = "must be left out, or the range must vary SmoothFilmRatio";
+                return Err(refuse("roughness", problem).into());
             }
         }
         ScaledShear::new(self.lubricant.shear, self.sliding(), &point)

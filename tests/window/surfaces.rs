@@ -42,7 +42,8 @@ fn roughness_changes_the_film_only_with_mixed_lubrication() {
     wait(&mut harness, "the rough contact", |app| {
         !app.busy() && app.central_film().is_some_and(|film| (film / smooth - 1.0).abs() > 1e-3)
     });
-    assert!(harness.state().badge_detail().contains("smooth surfaces"), "{}", harness.state().badge_detail());
+    // The badge has errors of a reduced model, not of smooth surfaces.
+    assert!(harness.state().badge_detail().contains("H_c"), "{}", harness.state().badge_detail());
     assert!(shows(&harness, "carried by asperities") && shows(&harness, "of the load"));
     let at = harness.state().central_film().unwrap();
     set(&mut harness, Role::Slider, "Composite roughness", 0.5);
@@ -67,18 +68,23 @@ fn stribeck_curve_has_a_boundary_and_a_full_film_end() {
     let mut harness = window(Some("scenes/rough/stribeck.ron"));
     click(&mut harness, "Traction");
     click(&mut harness, "Stribeck curve");
-    wait_until(PATIENCE, &mut harness, "the curve", |window| shows(window, "57 contacts in"));
+    // The model computes 101 contacts, and full solutions continue the curve at both ends.
+    wait_until(PATIENCE, &mut harness, "the curve", |window| {
+        shows(window, " contacts in") && !shows(window, "101 contacts in")
+    });
     assert!(harness.query_by_label("Load share of asperities along the quantity").is_some());
     let folder = Scratch::new("stribeck");
     let table = Table::of(&export(&mut harness, "Traction", "Curve as CSV…", &folder.join("curve.csv")));
     let (speed, friction) = (table.column("si.speed"), table.column("traction"));
     let (share, boundary) = (table.column("mixed.asperity_load_share"), table.column("mixed.boundary_traction"));
-    assert!(speed.len() == 57 && (speed[56] / speed[0]).log10() > 6.9, "{speed:?}");
+    let last = speed.len() - 1;
+    assert!(last > 110 && (speed[last] / speed[0]).log10() > 6.9, "{speed:?}");
+    assert!(speed.windows(2).all(|pair| pair[1] > pair[0]), "{speed:?}");
     assert!(share.windows(2).all(|pair| pair[1] <= pair[0]), "{share:?}");
-    assert!(share[0] > 0.3 && share[56] < 1e-3 && boundary[0] > 0.9 * friction[0]);
+    assert!(share[0] > 0.3 && share[last] < 1e-3 && boundary[0] > 0.9 * friction[0]);
     let least = friction.iter().copied().fold(f64::INFINITY, f64::min);
-    assert!(least < 0.8 * friction[0] && least < 0.9 * friction[56], "{friction:?}");
+    assert!(least < 0.8 * friction[0] && least < 0.9 * friction[last], "{friction:?}");
     // The curve follows the roughness.
     set(&mut harness, Role::Slider, "Composite roughness", 0.3);
-    wait_until(PATIENCE, &mut harness, "the next curve", |window| shows(window, "57 contacts in"));
+    wait_until(PATIENCE, &mut harness, "the next curve", |window| shows(window, " contacts in"));
 }

@@ -281,7 +281,7 @@ pub fn value_at(curve: &[PlotPoint], x: f64) -> Option<f64> {
 /// Difference between a picture and the full solution of the same contact.
 #[derive(Clone)]
 pub struct Comparison {
-    /// Relative error of H_c.
+    /// Relative error of H_c, [`Problem::film_difference`].
     pub h_c: f64,
     /// Relative error of H_min.
     pub h_min: f64,
@@ -293,7 +293,7 @@ pub struct Comparison {
     pub cuts: Cuts,
     /// ΔP against X.
     pub pressure: Vec<PlotPoint>,
-    /// ΔH/H_c against X.
+    /// ΔH/H_c against X; for rough surfaces ΔH/(σ/2) if H_c is smaller.
     pub film: Vec<PlotPoint>,
 }
 
@@ -327,12 +327,12 @@ impl Comparison {
             largest(&mut pressure.iter().map(|p| p.y))
         };
         Self {
-            h_c: a.h_c / b.h_c - 1.0,
-            h_min: a.h_min / b.h_min - 1.0,
+            h_c: full.solution.problem.film_difference(a.h_c, b.h_c),
+            h_min: full.solution.problem.film_difference(a.h_min, b.h_min),
             traction: slides.then_some(picture.traction - full.traction),
             max_dp,
             cuts: picture.cuts,
-            film: difference(&picture.film, &full.film, b.h_c),
+            film: difference(&picture.film, &full.film, b.h_c.abs().max(full.solution.problem.least_film())),
             pressure,
         }
     }

@@ -106,7 +106,7 @@ fn solve_all(
             return Err(EngineError::from(TrainingError::Cancelled));
         }
         let solution = if judged { solver.judged(solution) } else { solution };
-        let solved = if solution.converged() { Some(Solved::new(*place, solution)) } else { None };
+        let solved = if solution.converged() { Some(Solved::new(*place, solution, &grid)) } else { None };
         Ok((*place, *point, solved))
     };
     map_with(points, || ContactSolver::on(&grid), solve)

@@ -26,12 +26,13 @@ pub(super) fn sound_interval((low, high): (f64, f64), most: f64) -> bool {
 }
 
 /// Returns true if a range is valid. Only the range of a shear-thinning or thermal lubricant may vary SRR, and it must
-/// give SRR.
+/// give SRR. The surfaces are rough if it varies the film ratio.
 fn sound_domain(domain: &Domain) -> bool {
     let (space, slides) = (&domain.space, domain.slides());
     let most = if domain.heats() { LARGEST_HEATED_SRR } else { f64::MAX };
     space.check().is_ok()
         && domain.lubricant.check().is_ok()
+        && space.is_rough() == domain.lubricant.is_rough()
         && (slides || !space.slides())
         && (!slides || space.gives(Quantity::SlideToRollRatio))
         && domain.srr().is_none_or(|ends| sound_interval(ends, most))

@@ -122,7 +122,7 @@ fn wanted(observer: &dyn Observer) -> Result<(), ModelFileError> {
 
 /// Refuses local models that are inconsistent with the trained range.
 fn check_windows(domain: &Domain, windows: &[WindowEntry]) -> Result<(), ModelFileError> {
-    let (ellipses, anchored) = (domain.space.of_ellipses(), domain.space.varies_lubricant());
+    let (ellipses, anchored) = (domain.space.of_ellipses(), domain.space.varies_lubricant() && !domain.is_rough());
     // Thermal elliptical models are lubricant-parameterised, and none is shear-thinning.
     if ellipses && (domain.is_shear_thinning() || (domain.heats() && !anchored)) {
         return Err(damaged("its parts"));
@@ -226,7 +226,7 @@ fn deformations(contents: &Contents<'_>, grids: &[&ContactGrid]) -> Option<Vec<A
 /// If it is inconsistent with the range.
 fn of_domain(domain: &Domain, entry: &WindowEntry, mut window: Window) -> Result<Window, ModelFileError> {
     window.anchor = entry.anchor.map(|(m, l)| Moes { m, l });
-    if window.anchor.is_some() {
+    if window.anchor.is_some() || domain.is_rough() {
         window.metric = Metric::of_solutions(&domain.space);
     }
     window.cavitation = domain.lubricant.cavitation;

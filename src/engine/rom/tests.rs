@@ -7,13 +7,14 @@ use crate::solver::discrete::grid::GridSpec;
 use crate::solver::parameters::Quantity;
 use crate::solver::physics::contact::{ContactKind, Moes};
 use crate::solver::physics::lubricant::{Cavitation, ShearLaw};
-use crate::solver::reduced::{PressureModes, ReducedModel, Sampling, Scheme};
+use crate::solver::reduced::{Online, PressureModes, ReducedModel, ReducedOptions, Sampling, Scheme};
 use crate::solver::training::small::{
     ellipses, heated_balls, heated_bounded, heated_ellipses_bounded, heated_oils_bounded, line, oils, oils_of_points,
-    sliding_oils, trained, with_ends,
+    rough_bounded, sliding_oils, trained, with_ends,
 };
-use crate::solver::training::{TrainingSpec, WindowSpec, Windows, train};
+use crate::solver::training::{TrainingSpec, WindowSpec, Windows, random_points, train};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// `EHL_WRITE_MODELS=FOLDER cargo test --release --lib the_models_of_the_program` writes the embedded models in the
 /// current format. Use it after a change of the format, together with a reader of the previous format.
@@ -188,6 +189,33 @@ fn heat_survives_a_round_trip_and_must_fit_the_windows() {
     ];
     for lie in lies {
         let mut wrong = model.clone();
+        lie(&mut wrong);
+        let refused = from_bytes(&to_bytes(&wrong).unwrap()).err();
+        assert!(matches!(refused, Some(ModelFileError::Damaged { what: "its domain" })), "{refused:?}");
+    }
+}
+
+#[test]
+fn rough_surfaces_survive_a_round_trip_with_their_bounds() {
+    let spec = rough_bounded();
+    let model = trained(&spec);
+    let bytes = to_bytes(&model).unwrap();
+    let read = Arc::new(from_bytes(&bytes).unwrap());
+    assert!(read.domain == model.domain && read.domain.is_rough() && to_bytes(&read).unwrap() == bytes);
+    assert_eq!(read.domain.lubricant.roughness, spec.lubricant.roughness);
+    assert!(read.windows[0].snapshots.iter().all(|snapshot| snapshot.fronts.len() == 1));
+    let point = random_points(&spec.range, spec.contact(), 1, 7)[0];
+    let solved = |model: &Arc<ReducedModel>| {
+        Online::new(Arc::clone(model), ReducedOptions::default()).solve(&point, spec.lubricant).unwrap()
+    };
+    let (own, again) = (solved(&model), solved(&read));
+    assert!((own.h_c / again.h_c - 1.0).abs() < 1e-6, "{} {}", own.h_c, again.h_c);
+    assert!(again.error.unwrap().load_share.is_some());
+    let lies: [&dyn Fn(&mut ReducedModel); 2] = [&|m| lie_about(m, Quantity::SmoothFilmRatio, (f64::NAN, 2.0)), &|m| {
+        m.domain.lubricant.roughness.iter_mut().for_each(|rough| rough.sigma = -1.0)
+    }];
+    for lie in lies {
+        let mut wrong = ReducedModel::clone(&model);
         lie(&mut wrong);
         let refused = from_bytes(&to_bytes(&wrong).unwrap()).err();
         assert!(matches!(refused, Some(ModelFileError::Damaged { what: "its domain" })), "{refused:?}");

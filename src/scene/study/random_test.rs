@@ -20,7 +20,7 @@ use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::warning::Warning;
 use fastrand::Rng;
-use rows::COMPARED;
+use rows::{Asperities, COMPARED};
 use serde::{Deserialize, Serialize};
 use std::sync::{Mutex, PoisonError};
 
@@ -101,6 +101,7 @@ impl RandomTest {
                     traction: result.traction.unwrap_or(f64::NAN),
                     rises: solution.heat.as_ref().map(|heat| heat.central),
                     grid_cost: solution.grid_cost,
+                    rough: Asperities::of(solution),
                 }),
                 newton_iterations: result.newton_iterations,
                 wall_s: result.wall_s,
@@ -254,8 +255,8 @@ impl Question for RandomTest {
         if self.compare == 0 {
             return;
         }
-        let mut errors: [Vec<f64>; 4] = Default::default();
-        let mut bounds: [Vec<f64>; 4] = Default::default();
+        let mut errors: [Vec<f64>; 5] = Default::default();
+        let mut bounds: [Vec<f64>; 5] = Default::default();
         for tested in tests.iter().take(self.compare) {
             for (k, (error, bound)) in self::errors(tested).into_iter().zip(tested.0.bounds()).enumerate() {
                 errors[k].extend(error);
@@ -324,9 +325,9 @@ mod tests_of_doubts {
     fn doubtful_contacts_are_sorted_by_severity() {
         let bound = |h_c: f64| {
             let of = |bound: f64| Estimated { likely: bound / 4.0, bound };
-            ErrorEstimate { h_c: of(h_c), h_min: of(h_c), state: of(h_c), traction: None, rise: None }
+            ErrorEstimate { h_c: of(h_c), h_min: of(h_c), state: of(h_c), traction: None, rise: None, load_share: None }
         };
-        let film = Film { h_c: 1.0, h_min: 0.9, traction: f64::NAN, rises: None, grid_cost: None };
+        let film = Film { h_c: 1.0, h_min: 0.9, traction: f64::NAN, rises: None, grid_cost: None, rough: None };
         let test = |film, estimate| {
             let point = OperatingPoint::TABLE_2_1;
             Row::Test(Test {

@@ -31,10 +31,10 @@ const WINDOW: [Column<Window>; 7] = [
     ("sampled_rows", |window| window.sampled_rows.len() as f64),
 ];
 
-/// Returns the training with cavitation model and heat of the scene.
+/// Returns the training with cavitation model, heat and surfaces of the scene.
 fn of_scene(spec: &TrainingSpec, experiment: &Experiment) -> TrainingSpec {
-    let Lubricant { cavitation, heat, .. } = experiment.lubricant;
-    spec.clone().under(cavitation).heated(heat)
+    let Lubricant { cavitation, heat, roughness, .. } = experiment.lubricant;
+    spec.clone().under(cavitation).heated(heat).on_surfaces(roughness)
 }
 
 impl Question for TrainingSpec {

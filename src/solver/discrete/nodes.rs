@@ -250,6 +250,12 @@ impl Nodes {
         self.nodes.iter_mut().zip(nodes).for_each(|(own, node)| *own = node);
     }
 
+    /// Replaces one node of a Newtonian state.
+    #[inline]
+    pub fn put(&mut self, k: usize, node: Node) {
+        self.nodes[k] = node;
+    }
+
     /// Evaluates a row at these nodes.
     #[inline]
     pub fn row(&self, geometry: &RowGeometry, penalty: f64, stencil: [usize; STENCIL]) -> Row {

@@ -106,6 +106,25 @@ impl RoughNodes {
         nodes.set(self.nodes.iter().map(|node| node.along));
     }
 
+    /// Evaluates one node of a contact whose flow is the same along X and Y, and writes its film to `nodes`. If it is
+    /// `cavitated`, the film carries no pressure. Returns the asperity pressure.
+    #[inline]
+    pub fn evaluate_one(
+        &mut self,
+        laws: RoughLaws<'_>,
+        (k, cavitated): (usize, bool),
+        (pressure, film): (f64, f64),
+        nodes: &mut Nodes,
+    ) -> Asperities {
+        let (carried, slope) = laws.rough.asperity_pressure(&self.table, film);
+        let asperities = Asperities { pressure: carried, slope };
+        let total = if cavitated { carried } else { pressure };
+        let node = RoughNode::new(laws, total, film, asperities);
+        nodes.put(k, node.along);
+        self.nodes[k] = node;
+        asperities
+    }
+
     /// Evaluates a row at these nodes, with its derivatives with respect to total pressure and film thickness.
     #[inline]
     pub fn row(&self, rough: &ScaledRoughness, geometry: &RowGeometry, stencil: [usize; STENCIL]) -> Row {

@@ -205,6 +205,18 @@ impl Solution {
 }
 
 impl Problem {
+    /// Returns the smallest film thickness to which errors are relative: σ/2 for rough surfaces, whose mean planes may
+    /// pass each other, and 0 for smooth ones.
+    pub fn least_film(&self) -> f64 {
+        self.rough.map_or(0.0, |rough| 0.5 * rough.sigma)
+    }
+
+    /// Returns the relative difference of a film thickness from that of the full solution.
+    pub fn film_difference(&self, own: f64, full: f64) -> f64 {
+        let least = self.least_film();
+        if full.abs() < least { (own - full) / least } else { own / full - 1.0 }
+    }
+
     /// Returns the asperity pressure P_a at a film thickness H; 0 for smooth surfaces.
     pub fn asperity_pressure(&self, film: f64) -> f64 {
         let Some(rough) = self.rough else { return 0.0 };

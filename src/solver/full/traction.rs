@@ -153,7 +153,9 @@ impl Solution {
         let (gradient, fields) = (self.gradient(), self.film_fields());
         let ny = self.y.len();
         let mut stress = vec![0.0; self.pressure.len()];
-        pool::each(&mut stress, 256, |k, stress| {
+        // Shear-thinning takes an iteration per node; other stresses are faster than a change of threads.
+        let least = if self.problem.shear.is_some() { 256 } else { 4096 };
+        pool::each(&mut stress, least, |k, stress| {
             *stress = mid_film_stress(&self.problem, self.state(&fields, &gradient, k / ny, k % ny));
         });
         stress

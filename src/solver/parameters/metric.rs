@@ -97,7 +97,9 @@ impl Metric {
     }
 
     fn with(further: &[(Quantity, Form, f64)], space: &ParameterSpace) -> Self {
-        let mut numbers = LUBRICANTS.to_vec();
+        // Without lubricant ranges p_H and z follow from M and L.
+        let own = if space.is_rough() && !space.varies_lubricant() { 2 } else { LUBRICANTS.len() };
+        let mut numbers = LUBRICANTS[..own].to_vec();
         numbers.extend(further);
         numbers.extend(space.of_ellipses().then_some(SHAPE));
         let other = space.axes.iter().filter(|axis| !COUNTED.contains(&axis.quantity));
@@ -112,6 +114,11 @@ impl Metric {
     /// Returns the number of coordinates.
     pub fn len(&self) -> usize {
         self.numbers.len()
+    }
+
+    /// Returns true if a quantity is one of the numbers.
+    pub fn counts(&self, quantity: Quantity) -> bool {
+        self.numbers.iter().any(|(own, _, _)| *own == quantity)
     }
 
     /// True for a metric without numbers.
@@ -170,6 +177,22 @@ mod tests {
                 let moved = axis.quantity.at(&here, 1.5 * own);
                 assert!(apart(metric.place(&here), metric.place(&moved)) > 1e-6, "{:?} in {metric:?}", axis.quantity);
             }
+        }
+    }
+
+    #[test]
+    fn places_of_rough_contacts_are_load_lubricant_and_film_ratio() {
+        let space = ParameterSpace::of([
+            Axis::new(Quantity::M, (10.0, 100.0)),
+            Axis::new(Quantity::L, (3.0, 13.0)),
+            Axis::new(Quantity::SmoothFilmRatio, (0.1, 5.0)),
+        ]);
+        let (metric, here) = (Metric::of_solutions(&space), OperatingPoint::TABLE_2_1);
+        assert_eq!(metric.len(), 3);
+        for axis in &space.axes {
+            assert!(metric.counts(axis.quantity));
+            let moved = axis.quantity.at(&here, 1.5 * axis.quantity.of(&here).unwrap());
+            assert!(apart(metric.place(&here), metric.place(&moved)) > 1e-6, "{:?}", axis.quantity);
         }
     }
 }

@@ -40,6 +40,9 @@ pub enum Quantity {
     RoelandsExponent,
     /// Central film thickness H_c in units of a²/R, by Moes' formula.
     FilmThickness,
+    /// Film ratio λ = h/σ of the smooth contact: its central film thickness h by Moes' formula, divided by the
+    /// composite roughness σ. Contacts of a space have the reference roughness [`REFERENCE_ROUGHNESS_M`].
+    SmoothFilmRatio,
     /// Sliding speed |SRR| u_m \[m/s\].
     SlidingSpeed,
     /// κ₁ = p_H a/R \[Pa\], (3.27).
@@ -70,6 +73,10 @@ pub enum Quantity {
     /// Stress τ_E \[Pa\] at which the limiting stress begins to bend the flow curve.
     LimitEyring,
 }
+
+/// Composite rms roughness σ \[m\] of the contacts of a space that varies the film ratio. At equal M and L all
+/// dimensionless numbers of a rough contact depend on R/σ alone, so that R realises the film ratio.
+pub const REFERENCE_ROUGHNESS_M: f64 = 1e-7;
 
 /// Definition of a quantity.
 struct Facts {
@@ -133,6 +140,7 @@ impl Quantity {
             Self::HertzPressure => ("hertz-pressure", "Hertzian pressure p_H [Pa]", "Pressure {p_H}", ("p", "H"), "p_H", " Pa", K::Pressure, (0.0, 1e12), Scale::Log),
             Self::RoelandsExponent => ("roelands-exponent", "Roelands’ exponent z", "Exponent {z}", ("z", ""), "Roelands’ z", "", K::Number, (0.05, 2.0), Scale::Linear),
             Self::FilmThickness => ("film-thickness", "Central film thickness H_c by Moes’ formula", "Film {H_c}", ("H", "c"), "H_c by Moes’ formula", "", K::Number, (0.0, 1e6), Scale::Log),
+            Self::SmoothFilmRatio => ("smooth-film-ratio", "Film ratio λ of the smooth contact", "Film ratio {λ}", ("λ", ""), "λ of the smooth film", "", K::Number, (1e-3, 1e3), Scale::Log),
             Self::SlidingSpeed => ("sliding-speed", "Sliding speed SRR u_m [m/s]", "Sliding speed", ("Δu", ""), "the sliding speed SRR u_m", " m/s", K::Speed, (0.0, 1e3), Scale::Linear),
             Self::StressUnit => ("stress-unit", "Unit of shear stress κ₁ [Pa]", "Stress {κ_1}", ("κ", "1"), "κ₁ = p_H a/R", " Pa", K::Stress, (0.0, 1e15), Scale::Log),
             Self::GradientStress => ("gradient-stress", "Shear stress by the pressure gradient [Pa]", "Gradient stress", ("τ", "p"), "the shear stress by the pressure gradient", " Pa", K::Stress, (0.0, 1e12), Scale::Log),
@@ -256,6 +264,10 @@ impl Quantity {
                 ShearLaw::Eyring { critical_stress, .. } => Some(critical_stress),
                 ShearLaw::Newtonian | ShearLaw::Carreau { .. } | ShearLaw::Ellis { .. } => None,
             },
+            Self::SmoothFilmRatio => {
+                let sigma = lubricant.roughness.map(|roughness| roughness.sigma).filter(|sigma| *sigma > 0.0)?;
+                Some(smooth_film_m(point) / sigma)
+            }
             Self::InletTemperature => Some(heat()?.inlet_temperature),
             Self::ViscosityTemperature => Some(heat()?.oil.viscosity_temperature),
             Self::DensityTemperature => Some(heat()?.oil.density_temperature),
@@ -291,6 +303,7 @@ impl Quantity {
             Self::HertzPressure => point.hertz().pressure_pa,
             Self::RoelandsExponent => roelands_exponent(point),
             Self::FilmThickness => expected_film(point.kind, point.moes()),
+            Self::SmoothFilmRatio => smooth_film_m(point) / REFERENCE_ROUGHNESS_M,
             Self::SlidingSpeed => (point.sliding.slide_to_roll_ratio * point.speed_m_per_s).abs(),
             Self::StressUnit => point.gradient_stress_pa(),
             Self::GradientStress => point.gradient_stress_pa() * expected_film(point.kind, point.moes()),
@@ -309,7 +322,8 @@ impl Quantity {
     }
 
     /// Returns the same contact with another value of it. M changes by the load, L by α. A change of speed, radius,
-    /// modulus or viscosity also changes M and L. For dependent quantities the contact is returned unchanged.
+    /// modulus or viscosity also changes M and L. The film ratio changes by R, and speed and load follow so that M and L
+    /// are the same. For dependent quantities the contact is returned unchanged.
     pub fn at(self, point: &OperatingPoint, value: f64) -> OperatingPoint {
         let mut point = *point;
         match self {
@@ -325,6 +339,7 @@ impl Quantity {
             Self::Alpha => point.alpha_per_pa = value,
             Self::SlideToRollRatio => point.sliding.slide_to_roll_ratio = value,
             Self::NewtonianPlateauRatio => point.sliding.newtonian_plateau_ratio = Some(value),
+            Self::SmoothFilmRatio => point = enlarged(&point, value * REFERENCE_ROUGHNESS_M / smooth_film_m(&point)),
             _ => {}
         }
         point
@@ -356,6 +371,26 @@ impl Quantity {
     }
 }
 
+/// Returns the central film thickness \[m\] of the smooth contact by Moes' formula.
+fn smooth_film_m(point: &OperatingPoint) -> f64 {
+    expected_film(point.kind, point.moes()) * point.film_scale_m()
+}
+
+/// Returns the contact with all lengths multiplied by a factor. M, L and p_H are the same.
+pub(crate) fn enlarged(point: &OperatingPoint, factor: f64) -> OperatingPoint {
+    let load = match point.kind {
+        ContactKind::Line => factor,
+        ContactKind::Point => factor * factor,
+    };
+    OperatingPoint {
+        radius_m: point.radius_m * factor,
+        radius_y_m: point.radius_y_m.map(|radius| radius * factor),
+        speed_m_per_s: point.speed_m_per_s * factor,
+        load: point.load * load,
+        ..*point
+    }
+}
+
 /// Returns steel with its conductivity adapted to the given effusivity.
 fn body_of_effusivity(wanted: f64) -> BodyHeat {
     let steel = BodyHeat::default();
@@ -365,6 +400,27 @@ fn body_of_effusivity(wanted: f64) -> BodyHeat {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::solver::physics::surfaces::{Roughness, ScaledRoughness};
+
+    #[test]
+    fn contacts_of_equal_film_ratio_have_equal_numbers_whatever_their_roughness() {
+        for kind in [ContactKind::Line, ContactKind::Point] {
+            let here = OperatingPoint { kind, ..OperatingPoint::TABLE_2_1 };
+            let ratio = Quantity::SmoothFilmRatio;
+            let moved = ratio.at(&here, 0.7);
+            assert!((ratio.of(&moved).unwrap() / 0.7 - 1.0).abs() < 1e-12);
+            for same in [Quantity::M, Quantity::L, Quantity::HertzPressure] {
+                assert!((same.of(&moved).unwrap() / same.of(&here).unwrap() - 1.0).abs() < 1e-12, "{same:?}");
+            }
+            // Another roughness with the same film ratio gives the same dimensionless contact.
+            let rough = |sigma| Lubricant { roughness: Some(Roughness::new(sigma)), ..Lubricant::default() };
+            let sigma = REFERENCE_ROUGHNESS_M * ratio.of(&here).unwrap() / 0.7;
+            assert!((ratio.of_contact(&here, &rough(sigma)).unwrap() / 0.7 - 1.0).abs() < 1e-12);
+            let scaled = |point, sigma| ScaledRoughness::new(rough(sigma).roughness, point).unwrap().sigma;
+            assert!((scaled(&here, sigma) / scaled(&moved, REFERENCE_ROUGHNESS_M) - 1.0).abs() < 1e-12);
+            assert_eq!(ratio.of_contact(&here, &Lubricant::default()), None);
+        }
+    }
 
     #[test]
     fn a_contact_that_was_moved_has_the_value_and_keeps_all_others() {

@@ -73,7 +73,10 @@ impl ParameterSpace {
             slide_to_roll_ratio: value(Quantity::SlideToRollRatio).unwrap_or(0.0),
             newtonian_plateau_ratio: value(Quantity::NewtonianPlateauRatio),
         };
-        let point = OperatingPoint { sliding, ..shape(point) };
+        let mut point = OperatingPoint { sliding, ..shape(point) };
+        if let Some(ratio) = value(Quantity::SmoothFilmRatio) {
+            point = Quantity::SmoothFilmRatio.at(&point, ratio);
+        }
         let within = |(quantity, (low, high)): &(Quantity, (f64, f64))| {
             quantity.of(&point).is_some_and(|value| (*low..=*high).contains(&value))
         };

@@ -146,6 +146,11 @@ impl ParameterSpace {
         self.varies(Quantity::RadiusRatio)
     }
 
+    /// True for a space of contacts with rough surfaces.
+    pub fn is_rough(&self) -> bool {
+        self.varies(Quantity::SmoothFilmRatio)
+    }
+
     /// Sets the limits of a quantity and replaces existing ones.
     pub fn set_limit(&mut self, quantity: Quantity, ends: (f64, f64)) {
         match self.limits.iter_mut().find(|(own, _)| *own == quantity) {
@@ -244,6 +249,10 @@ impl ParameterSpace {
             return Err(Refused::new(format!("constants.{:?}", axis.quantity), why));
         }
         let has = |quantity: Quantity| given.clone().any(|(_, own)| own == quantity);
+        if has(Quantity::SmoothFilmRatio) && (has(Quantity::Radius) || !has(Quantity::M)) {
+            let why = "needs M and L, and determines the radius; leave out Radius, Speed and Load";
+            return Err(Refused::new("axes.SmoothFilmRatio", why));
+        }
         let moes = [Quantity::M, Quantity::L].map(has);
         let si = [Quantity::Radius, Quantity::Speed, Quantity::Load].map(has);
         match (moes, si) {

@@ -25,7 +25,7 @@ mod steps;
 #[cfg(test)]
 mod tests;
 
-pub use features::{Evidence, FeatureSet, Features, Measured};
+pub use features::{Evidence, FeatureSet, Features, FurtherError, Measured};
 pub use parts::CalibrationParts;
 pub use quantity::LEAST_EVIDENCE;
 
@@ -47,8 +47,8 @@ pub struct Calibration {
     ranges: Vec<(f64, f64)>,
     /// Positions of the evidence, one after the other; each coordinate is scaled to −1…1.
     places: Vec<f32>,
-    /// Central film thickness H_c, minimum film thickness H_min and state; traction for models with sliding or heat;
-    /// temperature rise for models with heat.
+    /// Central film thickness H_c, minimum film thickness H_min and state, then the further errors of the
+    /// [`FeatureSet`].
     quantities: Vec<Quantity>,
 }
 
@@ -67,7 +67,8 @@ impl Calibration {
 
     fn fitted(evidence: &[&[Evidence]]) -> Option<Vec<Option<Self>>> {
         let Features { count, errors, .. } = evidence.iter().find_map(|own| own.first())?.features;
-        let sound = |e: &&Evidence| e.features.finite() && e.errors.values(ERRORS).all(f64::is_finite);
+        let sound =
+            |e: &&Evidence| e.features.finite() && e.errors.of_every_solution().iter().all(|error| error.is_finite());
         let usable: Vec<Vec<&Evidence>> = evidence.iter().map(|own| own.iter().filter(sound).collect()).collect();
         if usable.iter().map(Vec::len).sum::<usize>() < LEAST_EVIDENCE {
             return None;
@@ -87,7 +88,7 @@ impl Calibration {
             windows.push(window);
         }
         let neighbours: Vec<Vec<Neighbours>> = windows.iter().map(Self::left_out).collect();
-        for q in 0..errors {
+        for q in 0..ERRORS + errors.len() {
             let log = |e: &&Evidence| e.errors.values(errors).nth(q).map_or(f64::NAN, |v| (v + FLOOR).ln());
             let logs: Vec<Vec<f64>> = usable.iter().map(|own| own.iter().map(log).collect()).collect();
             let fitted = Quantity::fit(&terms, &logs, &neighbours)?;
@@ -102,12 +103,17 @@ impl Calibration {
         let terms = quadratic(&scaled);
         let near = self.neighbours(&place(&scaled).collect::<Vec<f32>>(), None);
         let of = |quantity: &Quantity| quantity.estimate(&terms, &near, beyond);
+        let further = |asked: FurtherError| {
+            let place = features.errors.iter().position(|error| *error == asked)?;
+            self.quantities.get(ERRORS + place).map(of)
+        };
         ErrorEstimate {
             h_c: of(&self.quantities[0]),
             h_min: of(&self.quantities[1]),
             state: of(&self.quantities[2]),
-            traction: self.quantities.get(3).map(of),
-            rise: self.quantities.get(4).map(of),
+            traction: further(FurtherError::Traction),
+            rise: further(FurtherError::Rise),
+            load_share: further(FurtherError::LoadShare),
         }
     }
 
@@ -123,7 +129,7 @@ impl Calibration {
 
     /// Returns true if the calibration has these features and errors.
     pub fn is_of(&self, set: &FeatureSet) -> bool {
-        self.ranges.len() == set.count() && self.quantities.len() == set.errors
+        self.ranges.len() == set.count() && self.quantities.len() == ERRORS + set.errors.len()
     }
 
     /// Returns true if the errors were measured against full solutions, not estimated by a few full Newton steps.

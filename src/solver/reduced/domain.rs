@@ -1,10 +1,11 @@
 //! Validity range of a reduced model: a space of contacts with the laws of one lubricant, and tests whether a contact
 //! is inside.
 
-use crate::solver::full::Problem;
-use crate::solver::parameters::{CIRCLES, Outside, ParameterSpace, Quantity};
+use crate::solver::full::{Problem, SolveError};
+use crate::solver::parameters::{CIRCLES, Outside, ParameterSpace, Quantity, REFERENCE_ROUGHNESS_M, enlarged};
 use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
 use crate::solver::physics::lubricant::{Lubricant, LubricantOfModel, ShearLaw};
+use crate::solver::physics::surfaces::Roughness;
 use serde::{Deserialize, Serialize};
 
 /// Contacts that a reduced model covers.
@@ -76,10 +77,15 @@ impl Domain {
         self.is_shear_thinning() || self.heats()
     }
 
-    /// Returns true if errors are measured against converged full solutions. For shear-thinning, thermal and
+    /// Returns true for contacts with rough surfaces.
+    pub fn is_rough(&self) -> bool {
+        self.space.is_rough()
+    }
+
+    /// Returns true if errors are measured against converged full solutions. For shear-thinning, thermal, rough and
     /// lubricant-parameterised models a few Newton steps do not show all errors.
     pub fn measured_in_full(&self) -> bool {
-        self.slides() || self.space.varies_lubricant()
+        self.slides() || self.space.varies_lubricant() || self.is_rough()
     }
 
     /// Returns the interval of |SRR| (slide-to-roll ratio); `None` if the film thickness does not depend on sliding.
@@ -100,8 +106,13 @@ impl Domain {
     }
 
     /// Returns the contact with the model's own τ₀ that has the same dimensionless film: M, L, p_H, lubricant, SRR
-    /// and E′ τ₀ are equal. Returns the contact itself if τ₀ is not free.
+    /// and E′ τ₀ are equal. For rough surfaces, returns the contact with the reference roughness that has the same M,
+    /// L, p_H and film ratio. Returns the contact itself if neither τ₀ nor the roughness is free.
     pub(crate) fn as_trained(&self, point: &OperatingPoint, lubricant: &Lubricant) -> OperatingPoint {
+        if let Some(Roughness { sigma, .. }) = lubricant.roughness.filter(|rough| self.is_rough() && rough.sigma > 0.0)
+        {
+            return enlarged(point, REFERENCE_ROUGHNESS_M / sigma);
+        }
         let Some(stresses) = self.stress_ratio(lubricant) else { return *point };
         // At constant L, 2U is proportional to E′⁻⁴. The speed then follows from 2U E′ R, and the load from M.
         let load = match point.kind {
@@ -114,6 +125,15 @@ impl Domain {
             load: point.load * load,
             ..*point
         }
+    }
+
+    /// Returns the problem whose equations are solved: with the reference roughness for rough surfaces, otherwise the
+    /// problem itself. Both have the same dimensionless numbers.
+    pub(crate) fn as_solved(&self, problem: &Problem) -> Result<Problem, SolveError> {
+        let Some(roughness) = problem.lubricant.roughness.filter(|_| self.is_rough()) else { return Ok(*problem) };
+        let roughness = Some(Roughness { sigma: REFERENCE_ROUGHNESS_M, ..roughness });
+        let lubricant = Lubricant { roughness, ..problem.lubricant };
+        Problem::new(&self.as_trained(&problem.point, &problem.lubricant), lubricant)
     }
 
     /// Returns true if the traction quadrature is valid for the limiting stress of a problem. It is fitted to unlimited
@@ -143,6 +163,7 @@ impl Domain {
         }
         let found = self.other_shape(&problem.point).or_else(|| self.other_plateau(problem));
         let found = found.or_else(|| self.other_constants(&problem.lubricant));
+        let found = found.or_else(|| self.other_surfaces(problem));
         found.or_else(|| self.outside(problem, |_| true)).map_or(Trust::Trained, Trust::Outside)
     }
 
@@ -151,8 +172,8 @@ impl Domain {
     /// the reduced equations are exact.
     pub fn strange_shape(&self, problem: &Problem) -> Option<Outside> {
         let shapes = |quantity: Quantity| {
-            use Quantity::{FilmThickness, GradientStress, HertzPressure, L, M, RadiusRatio};
-            matches!(quantity, M | L | HertzPressure | RadiusRatio | FilmThickness | GradientStress)
+            use Quantity::{FilmThickness, GradientStress, HertzPressure, L, M, RadiusRatio, SmoothFilmRatio};
+            matches!(quantity, M | L | HertzPressure | RadiusRatio | FilmThickness | GradientStress | SmoothFilmRatio)
         };
         self.other_shape(&problem.point).or_else(|| self.outside(problem, shapes))
     }
@@ -167,6 +188,9 @@ impl Domain {
         if !self.space.constants.is_empty() && laws.heat.is_some() && self.heats() {
             (laws.heat, laws.limiting_stress) = (self.lubricant.heat, self.lubricant.limiting_stress);
         }
+        if self.is_rough() {
+            laws.roughness = self.lubricant.roughness;
+        }
         match (laws.shear, self.lubricant.shear) {
             (ShearLaw::Eyring { npr, .. }, ShearLaw::Eyring { critical_stress, .. }) if self.frees_eyring_stress() => {
                 Lubricant { shear: ShearLaw::Eyring { critical_stress, npr }, ..laws }
@@ -177,8 +201,10 @@ impl Domain {
 
     /// Returns a sentence if a problem has laws that the model was not trained with.
     fn other_laws(&self, problem: &Problem) -> Option<&'static str> {
-        if problem.rough.is_some() {
-            return Some("the model was trained for smooth surfaces");
+        match (problem.rough.is_some(), self.is_rough()) {
+            (true, false) => return Some("the model was trained for smooth surfaces"),
+            (false, true) => return Some("the model was trained for rough surfaces"),
+            _ => {}
         }
         let (asked, own) = (self.with_own_constants(problem.lubricant), self.lubricant);
         match (asked.heat, own.heat) {

@@ -17,7 +17,7 @@ const COARSEST: f64 = 20.0;
 pub struct Keeping {
     /// Line or point contacts.
     pub kind: ContactKind,
-    /// True for one of many local models around anchors.
+    /// True for one of many local models around anchors, and for rough surfaces: initial guesses are kriged there.
     pub anchored: bool,
     /// True for thermal models.
     pub heat: bool,
@@ -28,7 +28,7 @@ pub struct Keeping {
 impl Keeping {
     /// Returns the properties of a local model of a model with or without heat.
     pub fn of(window: &Window, heat: bool) -> Self {
-        let (anchored, shapes) = (window.anchor.is_some(), window.shapes.is_some());
+        let (anchored, shapes) = (window.anchor.is_some() || window.is_rough(), window.shapes.is_some());
         Self { kind: window.grid.kind(), anchored, heat, shapes }
     }
 

@@ -6,7 +6,7 @@
 
 use super::dense;
 use super::model::Window;
-use super::start::{Guess, film_number};
+use super::start::{FilmUnit, Guess};
 use crate::solver::parameters::{MOST_NUMBERS, Metric, Place, apart};
 use crate::solver::physics::contact::OperatingPoint;
 use faer::Mat;
@@ -69,7 +69,7 @@ impl Kriging {
         let known = Mat::from_fn(count + trends, numbers, |i, k| match (snapshots.get(i), k.checked_sub(modes)) {
             (None, _) => 0.0,
             (Some(snapshot), None) => snapshot.coefficients[k],
-            (Some(snapshot), Some(0)) => (snapshot.h_c / film_number(&snapshot.point)).ln(),
+            (Some(snapshot), Some(0)) => FilmUnit::of(window, &snapshot.point).number(snapshot.h_c).ln(),
             (Some(snapshot), Some(line)) => snapshot.fronts[line - 1] as f64,
         });
         let solved = dense::solved(system.as_ref(), known);
@@ -79,8 +79,8 @@ impl Kriging {
         sound.then_some(Self { metric, centre, length, places, weights, modes, numbers })
     }
 
-    /// Returns the initial guess for a contact; `None` if it is not finite.
-    pub fn start(&self, point: &OperatingPoint) -> Option<Guess> {
+    /// Returns the initial guess for a contact of the same local model; `None` if it is not finite.
+    pub fn start(&self, window: &Window, point: &OperatingPoint) -> Option<Guess> {
         let place = scaled(self.metric.place(point), self.centre, self.length);
         let mut coefficients = vec![0.0; self.numbers];
         let near = self.places.iter().map(|other| cubed(apart(place, *other)));
@@ -89,9 +89,9 @@ impl Kriging {
             coefficients.iter_mut().zip(weights).for_each(|(sum, weight)| *sum += factor * weight);
         }
         let fronts = coefficients[self.modes + 1..].iter().map(|front| (front + 0.5).max(0.0) as usize).collect();
-        let h_c = coefficients[self.modes].exp() * film_number(point);
+        let h_c = FilmUnit::of(window, point).film(coefficients[self.modes].exp());
         coefficients.truncate(self.modes);
-        let sound = h_c.is_finite() && h_c > 0.0 && coefficients.iter().all(|c| c.is_finite());
+        let sound = h_c.is_finite() && (h_c > 0.0 || window.is_rough()) && coefficients.iter().all(|c| c.is_finite());
         sound.then_some(Guess { coefficients, h_c, fronts, theta: Vec::new() })
     }
 }

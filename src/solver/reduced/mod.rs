@@ -26,6 +26,7 @@ mod online;
 mod operators;
 mod pod;
 mod reduced_solution;
+mod rough_domain;
 mod row_sizes;
 mod sampling;
 mod shapes;
@@ -38,7 +39,8 @@ mod traction_curve;
 pub mod transient;
 
 pub use calibration::{
-    Calibration, CalibrationParts, Evidence, FeatureSet, Features, LEAST_EVIDENCE, LEAST_OF_WINDOW, Measured,
+    Calibration, CalibrationParts, Evidence, FeatureSet, Features, FurtherError, LEAST_EVIDENCE, LEAST_OF_WINDOW,
+    Measured,
 };
 pub use combined::{Combined, PressureModes, SharedBasis};
 pub use cubature::{GoalEquations, cubature};

@@ -12,7 +12,7 @@ use super::traction::TractionRule;
 use crate::solver::discrete::grid::{ContactGrid, FIRST_UNKNOWN};
 use crate::solver::discrete::reynolds::PENALTY;
 use crate::solver::full::{GridCost, Problem};
-use crate::solver::parameters::{Metric, apart, separation};
+use crate::solver::parameters::{Metric, Quantity, apart, separation};
 use crate::solver::physics::contact::{ContactKind, Moes, OperatingPoint};
 use crate::solver::physics::lubricant::Cavitation;
 use faer::Mat;
@@ -189,6 +189,11 @@ impl Window {
         self.shapes.as_ref().map_or((0.0, f64::INFINITY), |shapes| shapes.ratios)
     }
 
+    /// True for rough surfaces.
+    pub fn is_rough(&self) -> bool {
+        self.metric.counts(Quantity::SmoothFilmRatio)
+    }
+
     /// Returns the size with all modes.
     pub fn size(&self) -> ModelSize {
         let (pressure, deformation) = (self.pressure.count(), self.deformation.modes.ncols());
@@ -204,10 +209,10 @@ impl Window {
         (self.traction, self.calibration) = (None, None);
     }
 
-    /// Returns the nearest training solution and its distance: by the model's metric for local models around anchors,
-    /// otherwise by [`separation`].
+    /// Returns the nearest training solution and its distance: by the model's metric for local models around anchors
+    /// and for rough surfaces, otherwise by [`separation`].
     pub fn nearest(&self, point: &OperatingPoint) -> Option<(&Snapshot, f64)> {
-        if self.anchor.is_some() {
+        if self.anchor.is_some() || self.is_rough() {
             let own = self.metric.place(point);
             let far = |snapshot: &Snapshot| apart(own, self.metric.place(&snapshot.point));
             let all = self.snapshots.iter().map(|snapshot| (snapshot, far(snapshot)));

@@ -118,7 +118,7 @@ impl ReducedSolution {
             let (h_c, h_min, state) = (quantity(&|e| e.h_c), quantity(&|e| e.h_min), quantity(&|e| e.state));
             // All solutions have this estimate or none, since they are of one contact.
             let traction = mine.traction.map(|own| quantity(&|e| e.traction.unwrap_or(own)));
-            Some(ErrorEstimate { h_c, h_min, state, traction, rise: None })
+            Some(ErrorEstimate { h_c, h_min, state, traction, rise: None, load_share: None })
         });
         self.beside = beside;
     }

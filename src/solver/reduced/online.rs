@@ -160,6 +160,9 @@ impl Online {
         if let Some(why) = window.residual_doubt(solved.residual_estimate) {
             return Ok(Some(why));
         }
+        if window.is_rough() {
+            return Ok(None);
+        }
         let lowest = self.lowest_film(solved)?;
         Ok((lowest.is_nan() || lowest <= 0.0).then(|| format!("its film thickness falls to H = {lowest:.1e}")))
     }
@@ -180,8 +183,9 @@ impl Online {
         if problem.heat.is_some() && !self.model.domain.heats() {
             return Err(ReducedError::Heat);
         }
-        if problem.rough.is_some() {
-            return Err(ReducedError::Roughness);
+        let rough = problem.rough.is_some();
+        if rough != self.model.domain.is_rough() {
+            return Err(ReducedError::Roughness { rough });
         }
         if problem.shear.is_some() && !self.model.slides() {
             return Err(ReducedError::ShearThinning);
@@ -190,6 +194,7 @@ impl Online {
         // trained Eyring stress.
         let model = Arc::clone(&self.model);
         let point = &model.domain.as_trained(&problem.point, &problem.lubricant);
+        let own = model.domain.as_solved(&problem)?;
         let kriged = self.kriged(index, point);
         // An isothermal kriging prediction depends on the contact alone, so that the result does not depend on
         // previous solutions.
@@ -205,7 +210,7 @@ impl Online {
         let Some(operators) = cell.get_mut() else { return Err(ReducedError::Empty) };
         if self.options.starts == Starts::Nearest {
             let guess = start::unchanged(window, point).ok_or(ReducedError::Empty)?;
-            let found = attempt(window, operators, &problem, &guess, usize::MAX, &self.options, watch)?;
+            let found = attempt(window, operators, &own, &guess, usize::MAX, &self.options, watch)?;
             return Ok(self.keep(&problem, index, found));
         }
         let thinning = self.model.slides();
@@ -219,7 +224,7 @@ impl Online {
             kriged.iter().flat_map(move |guess| shares.iter().map(|share| guess.with_modes(*share)))
         };
         for guess in former.chain(with(at_once)).chain(interpolated.chain(nearest).flatten()) {
-            match attempt(window, operators, &problem, &guess, FIRST_ATTEMPTS, &self.options, watch) {
+            match attempt(window, operators, &own, &guess, FIRST_ATTEMPTS, &self.options, watch) {
                 Ok(found) => return Ok(self.keep(&problem, index, found)),
                 Err(error) => last = error,
             }
@@ -227,10 +232,10 @@ impl Online {
         // If all guesses fail: fewer modes, then continuation from the nearest snapshot. With heat a failed
         // continuation takes seconds.
         let fewer = with(at_last)
-            .find_map(|guess| attempt(window, operators, &problem, &guess, FIRST_ATTEMPTS, &self.options, watch).ok());
+            .find_map(|guess| attempt(window, operators, &own, &guess, FIRST_ATTEMPTS, &self.options, watch).ok());
         let found = fewer.or_else(|| {
             let (snapshot, _) = window.nearest(point)?;
-            walk(window, operators, &problem, snapshot, &self.options, watch)
+            walk(window, operators, &own, snapshot, &self.options, watch)
         });
         match found {
             Some(found) => Ok(self.keep(&problem, index, found)),
@@ -243,12 +248,13 @@ impl Online {
 
     /// Returns the kriging prediction in a local model around an anchor.
     fn kriged(&self, index: usize, point: &OperatingPoint) -> Option<Guess> {
-        let window = self.model.windows.get(index).filter(|window| window.anchor.is_some())?;
+        let by_kriging = |window: &&Window| window.anchor.is_some() || window.is_rough();
+        let window = self.model.windows.get(index).filter(by_kriging)?;
         self.krigings
             .get(index)?
             .get_or_init(|| Kriging::of(window, Metric::of_starts(&self.model.domain.space)))
             .as_ref()?
-            .start(point)
+            .start(window, point)
     }
 
     /// Solves a contact from one snapshot of its local model only and reports every iterate, for the training.
@@ -265,7 +271,7 @@ impl Online {
         let window = model.windows.get(index).ok_or(ReducedError::Empty)?;
         self.prepare(&problem.point);
         let operators = self.windows.get_mut(index).and_then(OnceCell::get_mut).ok_or(ReducedError::Empty)?;
-        let guess = start::carried(snapshot, point);
+        let guess = start::carried(window, snapshot, point);
         let watch = &mut Watch { rows: Some(observer), wish: &() };
         let found = attempt(window, operators, &problem, &guess, usize::MAX, &self.options, watch)?;
         Ok(self.keep(&problem, index, found))
@@ -306,7 +312,9 @@ impl Online {
         });
         if let Some(estimate) = solved.error.as_mut().filter(|estimate| estimate.traction.is_some()) {
             // No error estimate for an unphysical traction, nor for one limited in a way that was not trained.
+            // Of rough contacts it was measured with a limiting stress.
             let meant = problem.traction_warning().is_none()
+                && (problem.rough.is_none() || problem.lubricant.limiting_stress.is_some())
                 && (knows_traction || !(domain.is_shear_thinning() && domain.space.varies_lubricant()));
             estimate.traction = estimate.traction.filter(|_| meant);
         }
@@ -344,6 +352,7 @@ fn operators_of(model: &ReducedModel, window: &Window, options: &ReducedOptions)
     let flow = match &model.domain {
         domain if domain.heats() => Flow::Thermal,
         domain if domain.is_shear_thinning() => Flow::Thinning,
+        domain if domain.is_rough() => Flow::Rough,
         _ => Flow::Newtonian,
     };
     Operators::new(window, modes, options.deformation_modes, flow)

@@ -4,7 +4,7 @@ use super::domain::Trust;
 use super::error_estimate::ErrorEstimate;
 use super::temperature_field::TemperatureField;
 use crate::solver::physics::contact::OperatingPoint;
-use crate::solver::physics::lubricant::{Lubricant, LubricantOfModel};
+use crate::solver::physics::lubricant::{Lubricant, WholeLubricant};
 use serde::{Deserialize, Serialize};
 
 /// Result of the online phase: few numbers only. Fields are reconstructed on request.
@@ -13,7 +13,7 @@ pub struct ReducedSolution {
     /// Operating point.
     pub point: OperatingPoint,
     /// Lubricant laws.
-    #[serde(with = "LubricantOfModel")]
+    #[serde(with = "WholeLubricant")]
     pub lubricant: Lubricant,
     /// Index of the local model used.
     pub window: usize,

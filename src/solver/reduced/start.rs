@@ -5,8 +5,9 @@
 use super::dense;
 use super::model::{Snapshot, Window};
 use crate::solver::discrete::heat::Profile;
-use crate::solver::parameters::{SHAPE_WEIGHT, separation};
+use crate::solver::parameters::{REFERENCE_ROUGHNESS_M, SHAPE_WEIGHT, separation};
 use crate::solver::physics::contact::{ContactKind, FilmFormula, OperatingPoint, moes_film};
+use crate::solver::physics::surfaces::{mean_gap, separation_of_gap};
 use faer::Mat;
 
 /// Number of snapshots for the interpolation of Newtonian contacts; of shear-thinning ones, with two more parameters;
@@ -130,9 +131,45 @@ fn square(v: [f64; 6]) -> f64 {
     v.iter().map(|v| v * v).sum()
 }
 
+/// Positive number that stands for the central film thickness H_c in interpolations, relative to a formula. For rough
+/// surfaces it is the mean gap, because H_c is the distance of the mean planes, which may pass each other.
+#[derive(Clone, Copy)]
+pub(super) struct FilmUnit {
+    formula: f64,
+    /// σ in units of the film thickness; `None` for smooth surfaces.
+    sigma: Option<f64>,
+}
+
+impl FilmUnit {
+    /// Returns the unit of a contact of a local model, as it was trained.
+    pub fn of(window: &Window, point: &OperatingPoint) -> Self {
+        let sigma = window.is_rough().then(|| REFERENCE_ROUGHNESS_M / point.film_scale_m());
+        Self { formula: film_number(point), sigma }
+    }
+
+    /// Returns the number of a film thickness H_c.
+    pub fn number(&self, h_c: f64) -> f64 {
+        self.sigma.map_or(h_c, |sigma| sigma * mean_gap(h_c / sigma).0) / self.formula
+    }
+
+    /// Returns the film thickness of a contact from that of another one, as the formula scales it.
+    pub fn carried(window: &Window, h_c: f64, (from, to): (&OperatingPoint, &OperatingPoint)) -> f64 {
+        if window.is_rough() {
+            return Self::of(window, to).film(Self::of(window, from).number(h_c));
+        }
+        h_c * film_number(to) / film_number(from)
+    }
+
+    /// Returns the film thickness H_c of a number.
+    pub fn film(&self, number: f64) -> f64 {
+        let gap = number * self.formula;
+        self.sigma.map_or(gap, |sigma| sigma * separation_of_gap(gap / sigma))
+    }
+}
+
 /// Returns a film thickness formula in the solver's scaling up to a constant, to compare film thicknesses: Moes for
 /// line contacts, Hamrock and Dowson for circular, Chittenden for elliptical contacts.
-pub(super) fn film_number(point: &OperatingPoint) -> f64 {
+fn film_number(point: &OperatingPoint) -> f64 {
     match point.kind {
         ContactKind::Line => {
             let moes = point.moes();
@@ -148,18 +185,18 @@ pub(super) fn film_number(point: &OperatingPoint) -> f64 {
 
 /// Returns the nearest training solution by (3.20), with its film thickness scaled by the formula.
 pub(super) fn nearest(window: &Window, point: &OperatingPoint) -> Option<Guess> {
-    window.nearest(point).map(|(snapshot, _)| carried(snapshot, point))
+    window.nearest(point).map(|(snapshot, _)| carried(window, snapshot, point))
 }
 
 /// Returns a training solution with its film thickness scaled to a point by the formula.
-pub(super) fn carried(snapshot: &Snapshot, point: &OperatingPoint) -> Guess {
-    let h_c = snapshot.h_c * film_number(point) / film_number(&snapshot.point);
+pub(super) fn carried(window: &Window, snapshot: &Snapshot, point: &OperatingPoint) -> Guess {
+    let h_c = FilmUnit::carried(window, snapshot.h_c, (&snapshot.point, point));
     Guess { coefficients: snapshot.coefficients.clone(), h_c, fronts: snapshot.fronts.clone(), theta: Vec::new() }
 }
 
 /// Returns the nearest training solution by (3.20) with its own film thickness.
 pub(super) fn unchanged(window: &Window, point: &OperatingPoint) -> Option<Guess> {
-    window.nearest(point).map(|(snapshot, _)| Guess { h_c: snapshot.h_c, ..carried(snapshot, point) })
+    window.nearest(point).map(|(snapshot, _)| Guess { h_c: snapshot.h_c, ..carried(window, snapshot, point) })
 }
 
 /// Interpolates between the nearest training solutions. The weights reproduce functions linear in (ln M, L, ln α), with
@@ -231,8 +268,8 @@ pub(super) fn interpolated(window: &Window, point: &OperatingPoint, thinning: bo
         for (c, s) in coefficients.iter_mut().zip(&snapshot.coefficients) {
             *c += w * s;
         }
-        log_film += w * (snapshot.h_c / film_number(&snapshot.point)).ln();
+        log_film += w * FilmUnit::of(window, &snapshot.point).number(snapshot.h_c).ln();
     }
     let fronts = fronts.into_iter().map(|front| front as usize).collect();
-    Some(Guess { coefficients, h_c: log_film.exp() * film_number(point), fronts, theta: Vec::new() })
+    Some(Guess { coefficients, h_c: FilmUnit::of(window, point).film(log_film.exp()), fronts, theta: Vec::new() })
 }

@@ -208,7 +208,7 @@ mod tests {
             let shift = if low { rng.f64() } else { 0.0 };
             let bump = |x: f64| (1.0 - (x - 0.3 * shift).powi(2)).max(0.0).sqrt();
             let pressure = (0..grid.len()).map(|i| bump(grid.place(i).0)).collect();
-            Solved { place, point: contact(m), pressure, h_0: 0.0, h_c: 0.2, grid_cost: None }
+            Solved { place, point: contact(m), pressure, h_0: 0.0, h_c: 0.2, grid_cost: None, fronts: Vec::new() }
         };
         let pool: Vec<Solved> = (0..120).map(solved).collect();
         let low =

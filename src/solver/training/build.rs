@@ -125,7 +125,7 @@ impl<'a> WindowTraining<'a> {
             observer.progress(Progress { stage: stage.clone(), done, total });
             if solution.converged() {
                 let solution = if spec.tells_grid_costs() { solver.judged(solution) } else { solution };
-                Ok(Solved::new(*place, solution))
+                Ok(Solved::new(*place, solution, &self.grid))
             } else if observer.cancelled() {
                 Err(TrainingError::Cancelled)
             } else {
@@ -145,7 +145,8 @@ impl<'a> WindowTraining<'a> {
         observer.progress(Progress { stage: format!("Bases, M {}…{}", window.m.0, window.m.1), done: 0, total: 1 });
         let (from, to) = window.m;
         let failed = || TrainingError::Decomposition { from, to };
-        let (losses, positive) = ([spec.pressure_loss, spec.deformation_loss], spec.positive_modes);
+        let pressure_loss = window.pressure_loss.unwrap_or(spec.pressure_loss);
+        let (losses, positive) = ([pressure_loss, spec.deformation_loss], spec.positive_modes);
         let (most, missing) = match spec.windows {
             Windows::Anchored { modes, missing, missing_of_any, .. } => (modes, [missing, missing_of_any]),
             Windows::Given(_) | Windows::Automatic { .. } => (usize::MAX, [0.0; 2]),
@@ -154,7 +155,7 @@ impl<'a> WindowTraining<'a> {
         let own: Vec<bool> = solutions.iter().map(|s| spec.lubricant_of(&s.point) == spec.lubricant).collect();
         let cavitation = spec.lubricant.cavitation;
         let ratio = spec.shapes_of(window);
-        let (anchored, shapes) = (anchor(window).is_some(), ratio != CIRCLES);
+        let (anchored, shapes) = (anchor(window).is_some() || spec.range.is_rough(), ratio != CIRCLES);
         let keeping = Keeping { kind: grid.kind(), anchored, heat: spec.heats(), shapes };
         let mut model = on_one_thread(*observer, move || {
             let mut asked = Vec::new();
@@ -169,7 +170,10 @@ impl<'a> WindowTraining<'a> {
             let (pressure, deformation, mut snapshots) = bases(limits, positive, &grid, (&solutions, &own), shared)?;
             if cavitation == Cavitation::Complementarity {
                 for (snapshot, solution) in snapshots.iter_mut().zip(&solutions) {
-                    snapshot.fronts = fronts(&grid, |node| solution.pressure[node]);
+                    snapshot.fronts = match solution.fronts.is_empty() {
+                        true => fronts(&grid, |node| solution.pressure[node]),
+                        false => solution.fronts.clone(),
+                    };
                 }
             }
             let shapes = match (&grid, ratio == CIRCLES) {

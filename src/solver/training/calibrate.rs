@@ -3,6 +3,9 @@
 //! At random points (3.17) of its own range, the reduced solution is continued by three full Newton steps. For
 //! shear-thinning and lubricant-parameterised models the full solver iterates until convergence. The resulting change
 //! is the error. It serves only as evidence for the [`Calibration`]: no basis contains these points.
+//!
+//! Contacts with rough surfaces slide here, with a limiting stress, so that errors of friction can be measured. Their
+//! film does not depend on either.
 
 use super::cell::Cell;
 use super::error::TrainingError;
@@ -10,11 +13,17 @@ use super::indicator::Corrector;
 use super::observer::TrainingObserver;
 use super::one_thread::{in_parallel, on_one_thread};
 use super::spec::TrainingSpec;
+use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::lubricant::{LimitingStress, Lubricant};
 use crate::solver::reduced::{
     Calibration, Evidence, FeatureSet, Features, Online, ReducedModel, ReducedOptions, Window,
 };
 use fastrand::Rng;
 use std::sync::Arc;
+
+/// Smallest and largest SRR of contacts with rough surfaces, and their limiting stress.
+const SLIDING: (f64, f64) = (1e-3, 2.0);
+const LIMIT: LimitingStress = LimitingStress { ambient: 0.0, slope: 0.08, eyring: Some(5e6) };
 
 /// Measures the errors of local model `k`; `model` contains this one only. Points at which the reduced model fails
 /// are omitted, since no error is shown for them.
@@ -33,7 +42,10 @@ pub(super) fn measured(
     let served = spec.within(m).served_by(window, cell);
     let mut rng = Rng::with_seed(seed);
     let points = served.random_points(spec.evidence, &mut rng);
-    let contacts: Vec<_> = points.into_iter().map(|point| (point, spec.random_lubricant(&mut rng))).collect();
+    let mut contacts: Vec<_> = points.into_iter().map(|point| (point, spec.random_lubricant(&mut rng))).collect();
+    if model.domain.is_rough() {
+        contacts.iter_mut().for_each(|contact| slide(contact, &mut rng));
+    }
     let set = FeatureSet::of(&model.domain);
     let stage = format!("Measuring errors, M {}…{}", window.m.0, window.m.1);
     let solvers = || (Online::new(Arc::clone(model), ReducedOptions::default()), Corrector::of(window));
@@ -48,6 +60,13 @@ pub(super) fn measured(
         Some(Evidence { features: Features::of(&solved, point, &set), errors })
     })?;
     Ok(measured.into_iter().flatten().collect())
+}
+
+/// Gives a contact with rough surfaces a random SRR, and its lubricant the limiting stress.
+fn slide((point, lubricant): &mut (OperatingPoint, Lubricant), rng: &mut Rng) {
+    let (least, most) = SLIDING;
+    point.sliding.slide_to_roll_ratio = least * (most / least).powf(rng.f64());
+    lubricant.limiting_stress = Some(LIMIT);
 }
 
 /// Calibrates the local models with the evidence of each; those around anchors together.

@@ -156,7 +156,7 @@ fn lubricant(spec: &TrainingSpec) -> Result<(), Refused> {
                 "varies the viscosity, which needs Roelands’ law, but the lubricant has another one",
             );
         }
-        if !matches!(spec.windows, Windows::Anchored { .. }) {
+        if !range.is_rough() && !matches!(spec.windows, Windows::Anchored { .. }) {
             return refuse("windows", "must be `Anchored(…)` for a range that varies the viscosity");
         }
         if shear_thinning && !heat && !eyring {
@@ -168,6 +168,9 @@ fn lubricant(spec: &TrainingSpec) -> Result<(), Refused> {
     }
     if spec.heats() {
         return thermal(spec);
+    }
+    if range.is_rough() {
+        return rough(spec);
     }
     let (slides, plateau) = (range.slides(), range.varies(Quantity::NewtonianPlateauRatio));
     let modulus = range.gives(Quantity::Modulus);
@@ -182,6 +185,28 @@ fn lubricant(spec: &TrainingSpec) -> Result<(), Refused> {
         }
         (false, false) => Ok(()),
     }
+}
+
+/// Checks the parameter space of a training with rough surfaces: steady line contacts without sliding or shear-thinning.
+fn rough(spec: &TrainingSpec) -> Result<(), Refused> {
+    let (range, laws) = (&spec.range, &spec.lubricant);
+    let refuse = |field: &str, problem: &str| Err(Refused::new(field, problem));
+    if laws.roughness.is_none() {
+        return refuse("range.axes.SmoothFilmRatio", "needs the laws of rough surfaces");
+    }
+    if spec.contact() != ContactKind::Line {
+        return refuse("range.axes.SmoothFilmRatio", "is supported for line contacts only");
+    }
+    if range.slides() || laws.shear != ShearLaw::Newtonian {
+        return refuse("range.axes.SmoothFilmRatio", "is supported for Newtonian lubricants without SRR only");
+    }
+    if !matches!(spec.windows, Windows::Given(_)) {
+        return refuse("windows", "must be given for a range that varies the film ratio");
+    }
+    if spec.scheme != Scheme::Galerkin {
+        return refuse("scheme", "must be Galerkin for rough surfaces");
+    }
+    Ok(())
 }
 
 /// Refuses negative SRR, since film thickness is even in SRR, and SRR above `most`.
@@ -284,6 +309,9 @@ fn given(spec: &TrainingSpec, windows: &[WindowSpec]) -> Result<(), Refused> {
     }
     if windows.windows(2).any(apart) {
         return refuse("must have their intervals of radius_ratio in ascending order, or none of them any".to_owned());
+    }
+    for loss in windows.iter().filter_map(|window| window.pressure_loss) {
+        number("windows.pressure_loss", loss, 1e-15, 0.5)?;
     }
     let (low, high) = spec.domain().m();
     match windows.iter().find(|w| w.m.1 < low || w.m.0 > high) {

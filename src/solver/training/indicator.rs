@@ -118,7 +118,8 @@ impl Corrector {
         let full = self.full.get_or_insert_with(|| ContactSolver::on(&self.grid));
         let after =
             if converged { full_solution(full, &before)? } else { full.corrected(&before, CORRECTIONS).ok()? };
-        let change = |from: f64, to: f64| (from / to - 1.0).abs();
+        let relative = |from: f64, to: f64| (from / to - 1.0).abs();
+        let change = |from: f64, to: f64| before.problem.film_difference(from, to).abs();
         let (from, to) = (&before.scalars, &after.scalars);
         let (mut difference, mut size) = ((from.h_0 - to.h_0).powi(2), to.h_0.powi(2));
         for (node, was) in before.deformation().into_iter().enumerate() {
@@ -132,12 +133,17 @@ impl Corrector {
         let sound = [h_c, h_min, state].iter().all(|error| error.is_finite());
         let slides = solved.point.sliding.slide_to_roll_ratio != 0.0;
         let sensible = slides && before.problem.traction_warning().is_none();
-        let own = solved.traction.filter(|_| sliding && sensible);
-        let pair = own.map(|own| (own, after.traction_coefficient()));
-        let traction = pair.map(|(own, true_one)| change(own, true_one)).filter(|error| error.is_finite());
+        let mixed = before.mixed().zip(after.mixed());
+        let pair = match mixed {
+            // The boundary's part of the friction follows from the asperity load share.
+            Some((own, true_one)) => sensible.then_some((own.fluid_traction, true_one.fluid_traction)),
+            None => solved.traction.filter(|_| sliding && sensible).map(|own| (own, after.traction_coefficient())),
+        };
+        let load_share = mixed.map(|(own, true_one)| (own.asperity_load_share - true_one.asperity_load_share).abs());
+        let traction = pair.map(|(own, true_one)| relative(own, true_one)).filter(|error| error.is_finite());
         let rises = before.heat.as_ref().zip(after.heat.as_ref());
         let rise = rises.map(|(own, true_one)| own.central.difference(&true_one.central));
-        sound.then_some(Measured { h_c, h_min, state, traction, rise })
+        sound.then_some(Measured { h_c, h_min, state, traction, rise, load_share })
     }
 }
 

@@ -183,7 +183,7 @@ mod tests {
         let point = Within::all(&range, ContactKind::Line, false).farthest_points(&[], 1, &mut Rng::with_seed(1))[0];
         let solved = |a: f64, b: f64| {
             let pressure = grid.xi.iter().map(|x| a * (x * 0.3).cos() + b * (x * 0.7).sin()).collect();
-            Solved { place: 0, point, pressure, h_0: 0.0, h_c: 1.0, grid_cost: None }
+            Solved { place: 0, point, pressure, h_0: 0.0, h_c: 1.0, grid_cost: None, fronts: Vec::new() }
         };
         let spanned = [solved(1.0, 0.0), solved(0.0, 1.0), solved(2.0, 3.0), solved(-1.0, 0.5)];
         assert!(held_out(spec, &spanned, &()).unwrap() < 1e-12);

@@ -35,6 +35,8 @@ pub(crate) mod responses;
 mod responses_tests;
 #[cfg(test)]
 mod resume_tests;
+#[cfg(test)]
+mod rough_tests;
 mod rows;
 #[cfg(test)]
 mod rupture_tests;

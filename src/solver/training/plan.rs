@@ -144,7 +144,8 @@ impl Within {
         // The corners of the range are its extremes, which a random pool never quite reaches.
         pool.extend(self.range.corners().filter_map(|corner| self.at(corner)));
         let place = |p: &OperatingPoint| (p.moes(), p.alpha_per_pa.ln(), p.sliding, p.radius_ratio().ln());
-        let metric = self.range.varies_lubricant().then(|| Metric::of_plan(&self.range, self.heat));
+        let by_metric = self.range.varies_lubricant() || self.range.is_rough();
+        let metric = by_metric.then(|| Metric::of_plan(&self.range, self.heat));
         let coordinates: Vec<_> = pool.iter().map(place).collect();
         let places: Vec<_> = metric.iter().flat_map(|metric| pool.iter().map(|point| metric.place(point))).collect();
         let alpha_weight = if self.range.is_si_box() { BOX_ALPHA_WEIGHT } else { ALPHA_WEIGHT };

@@ -311,3 +311,20 @@ pub(crate) fn with_ends(space: &ParameterSpace, quantity: Quantity, ends: (f64, 
     }
     space
 }
+
+/// Rough line contacts.
+pub(crate) fn rough(sampling: Sampling) -> TrainingSpec {
+    let range = ParameterSpace::of([
+        Axis::new(Quantity::M, (15.0, 30.0)),
+        Axis::new(Quantity::L, (7.0, 10.0)),
+        Axis::new(Quantity::SmoothFilmRatio, (0.4, 2.0)),
+    ]);
+    let spec = TrainingSpec::new(range, (10.0, 40.0), line_grid(280), Plan::FarthestPoint { snapshots: 60 });
+    let (pressure_loss, rows_per_mode) = (1e-9, 3.5);
+    TrainingSpec { sampling, pressure_loss, rows_per_mode, evidence: 0, ..spec }.on_surfaces(None)
+}
+
+/// The same with error bounds.
+pub(crate) fn rough_bounded() -> TrainingSpec {
+    TrainingSpec { evidence: 200, ..rough(Sampling::Cubature) }
+}

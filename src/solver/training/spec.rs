@@ -2,9 +2,10 @@
 
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::discrete::reynolds::PENALTY;
-use crate::solver::parameters::{ParameterSpace, Quantity};
+use crate::solver::parameters::{ParameterSpace, Quantity, REFERENCE_ROUGHNESS_M};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::{Cavitation, Heat, Lubricant};
+use crate::solver::physics::surfaces::Roughness;
 use crate::solver::reduced::{Domain, ReducedModel, Sampling, Scheme, Window};
 use fastrand::Rng;
 use serde::{Deserialize, Serialize};
@@ -183,11 +184,21 @@ impl TrainingSpec {
         Self { lubricant: Lubricant { heat, ..self.lubricant }, ..self }
     }
 
+    /// Returns the same training with the laws of rough surfaces, if its range varies the film ratio: then its contacts
+    /// have the reference roughness, and no shear flow. Otherwise they are smooth.
+    pub fn on_surfaces(self, roughness: Option<Roughness>) -> Self {
+        let sigma = REFERENCE_ROUGHNESS_M;
+        let laws = Roughness { sigma, shear_flow: 0.0, ..roughness.unwrap_or(Roughness::new(sigma)) };
+        let rough = self.range.is_rough().then_some(laws);
+        Self { lubricant: self.lubricant.on_rough_surfaces(rough), ..self }
+    }
+
     /// Returns true if a model is of the same kind of contacts.
     pub fn is_of(&self, model: &ReducedModel) -> bool {
         model.contact() == self.contact()
             && model.of_ellipses() == self.range.of_ellipses()
             && model.domain.heats() == self.heats()
+            && model.domain.is_rough() == self.range.is_rough()
     }
 
     /// Returns the kind of contact: that of the grids; automatic local models are of line contacts.
@@ -321,12 +332,15 @@ pub struct WindowSpec {
     /// M and L of its anchor, if the training selects anchors.
     #[serde(default)]
     pub anchor: Option<(f64, f64)>,
+    /// Truncation of its pressure modes; `None` for that of the training. Thick films allow a larger one.
+    #[serde(default)]
+    pub pressure_loss: Option<f64>,
 }
 
 impl WindowSpec {
     /// Creates a local model of line or circular contacts.
     pub fn new(m: (f64, f64), grid: GridSpec) -> Self {
-        Self { m, grid, radius_ratio: None, anchor: None }
+        Self { m, grid, radius_ratio: None, anchor: None, pressure_loss: None }
     }
 
     /// Returns true if another local model has the same radius ratios.

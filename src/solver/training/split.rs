@@ -101,7 +101,7 @@ mod tests {
         let points = Within::all(&range, ContactKind::Line, false).farthest_points(&[], 60, &mut Rng::with_seed(1));
         let solved = points.into_iter().enumerate().map(|(place, point)| {
             let pressure = (0..grid.len()).map(|i| if i > 1 && i % 64 == place { 1.0 } else { 0.0 }).collect();
-            Solved { place, point, pressure, h_0: 0.0, h_c: 1.0, grid_cost: None }
+            Solved { place, point, pressure, h_0: 0.0, h_c: 1.0, grid_cost: None, fronts: Vec::new() }
         });
         solved.collect()
     }

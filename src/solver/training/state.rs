@@ -2,9 +2,10 @@
 
 use super::search::Search;
 use super::spec::{TrainingSpec, WindowSpec};
-use crate::solver::discrete::grid::GridSpec;
+use crate::solver::discrete::grid::{ContactGrid, GridSpec};
 use crate::solver::full::{GridCost, Solution};
 use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::reduced::fronts;
 use serde::{Deserialize, Serialize};
 
 /// Factor in M by which training points extend beyond the ends of a local model, so that its edge is not a corner.
@@ -12,6 +13,9 @@ pub(super) const OVERLAP: f64 = 1.221_402_758_160_17;
 
 /// Minimum number of full solutions for a local model.
 pub(super) const FEWEST: usize = 4;
+
+/// Film pressure P_h of rough surfaces up to which a node counts as cavitated.
+const NO_FILM_PRESSURE: f64 = 1e-8;
 
 /// Training with all its results; full solutions are never computed twice.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -69,13 +73,19 @@ pub struct Solved {
     pub h_c: f64,
     /// Discretisation error, if requested.
     pub grid_cost: Option<GridCost>,
+    /// First cavitated column of each line along X, of rough surfaces. Empty for smooth ones, whose pressures show it.
+    pub fronts: Vec<usize>,
 }
 
 impl Solved {
-    /// Extracts the data that a training needs.
-    pub fn new(place: usize, solution: Solution) -> Self {
+    /// Extracts the data that a training needs from a solution on a grid.
+    pub fn new(place: usize, solution: Solution, grid: &ContactGrid) -> Self {
+        let fronts = solution.problem.rough.map_or_else(Vec::new, |_| {
+            let film_pressure = solution.film_pressure();
+            fronts(grid, |node| film_pressure[node] - NO_FILM_PRESSURE)
+        });
         let Solution { problem, pressure, scalars, grid_cost, .. } = solution;
-        Self { place, point: problem.point, pressure, h_0: scalars.h_0, h_c: scalars.h_c, grid_cost }
+        Self { place, point: problem.point, pressure, h_0: scalars.h_0, h_c: scalars.h_c, grid_cost, fronts }
     }
 }
 

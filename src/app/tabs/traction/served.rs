@@ -22,6 +22,20 @@ pub struct Served {
     /// Reason why the curve is outside the trained range, such as another fluid. The model solves the equations of
     /// these contacts, but its errors have not been calibrated for them.
     pub untrained: Option<String>,
+    /// First and last value that the model covers, if full solutions continue the curve beyond them.
+    pub part: Option<(f64, f64)>,
+}
+
+impl Served {
+    /// Full solutions, which are fast enough.
+    const IN_FULL: Self = Self { by: None, untrained: None, part: None };
+
+    /// Returns the part of a sweep that its method computes at once.
+    pub(super) fn part_of(&self, sweep: &Sweep) -> Sweep {
+        let Some(ends) = self.part else { return sweep.clone() };
+        let base = Key { point: sweep.varied.at(&sweep.base.point, ends.0), ..sweep.base };
+        Sweep { base, ends, ..sweep.clone() }
+    }
 }
 
 /// Returns the sweep through the contact of the sliders, with its reduced model or the reason why there is none.
@@ -35,20 +49,27 @@ pub fn sweep(document: &Document, answers: &Answers, choices: &Choices) -> Optio
     if varied == Varied::Plateau && key.lubricant.shear == ShearLaw::Newtonian || !choices.against.is_of(point.kind) {
         return None;
     }
-    // Reduced models are trained for smooth surfaces.
     let rough = key.lubricant.is_rough();
-    let (ends, served) = match answers.in_use(document).filter(|_| !rough) {
+    let (ends, served) = match answers.in_use(document).filter(|by| by.model.domain.is_rough() == rough) {
         // Each full solution of a rough line contact takes some 15 ms from its neighbour.
-        None if rough && point.kind == ContactKind::Line => {
-            (varied.everywhere(&key), Ok(Served { by: None, untrained: None }))
+        by if rough && point.kind == ContactKind::Line => {
+            let ends = varied.everywhere(&key);
+            let part = by.and_then(|by| Some((covered(&by.model.domain, &key, varied, ends)?, by)));
+            let whole = |(part, by): ((f64, f64), InUse)| {
+                let part = Some(part).filter(|part| *part != ends);
+                Served { by: Some(by), part, ..Served::IN_FULL }
+            };
+            (ends, Ok(part.map_or(Served::IN_FULL, whole)))
         }
-        None if rough => (varied.everywhere(&key), Err(Refusal::new("reduced models are trained for smooth surfaces"))),
+        None if rough => {
+            (varied.everywhere(&key), Err(Refusal::new("there is no reduced model of rough point contacts")))
+        }
         None => (varied.everywhere(&key), Err(Refusal::new("there is no reduced model of this contact"))),
         Some(by) => match varied.trained(&by.model.domain, &point) {
             Some(ends) => match untrained(&by.model.domain, &key, varied, ends) {
                 Ok(untrained) => {
                     let ends = if untrained.is_some() { varied.around(&key, ends) } else { ends };
-                    (ends, Ok(Served { by: Some(by), untrained }))
+                    (ends, Ok(Served { by: Some(by), untrained, part: None }))
                 }
                 Err(why) => (ends, Err(why)),
             },
@@ -75,6 +96,34 @@ pub fn sweep(document: &Document, answers: &Answers, choices: &Choices) -> Optio
     };
     let base = Key { point: varied.at(&point, ends.0), lubricant: key.lubricant };
     Some((Sweep { varied, base, ends, logarithmic }, served))
+}
+
+/// Number of values of a sweep that are checked, and of halvings that refine the ends.
+const CHECKED: u32 = 56;
+const HALVINGS: u32 = 40;
+
+/// Returns the part of a sweep of rough contacts that a model covers, from its first covered value to its last one;
+/// `None` if it covers fewer than two of the checked ones. The values are checked in equal ratios, or in equal steps
+/// from zero.
+fn covered(domain: &Domain, key: &Key, varied: Varied, (from, to): (f64, f64)) -> Option<(f64, f64)> {
+    let at = |share: f64| if from > 0.0 { from * (to / from).powf(share) } else { from + share * (to - from) };
+    let inside = |share: f64| {
+        let problem = Problem::new(&varied.at(&key.point, at(share)), key.lubricant);
+        problem.is_ok_and(|problem| domain.trust(&problem) == Trust::Trained)
+    };
+    let share = |k: u32| f64::from(k) / f64::from(CHECKED);
+    let first = (0..=CHECKED).find(|k| inside(share(*k)))?;
+    let last = (0..=CHECKED).rev().find(|k| inside(share(*k))).filter(|last| *last > first)?;
+    let refined = |mut good: f64, mut bad: f64| {
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (good + bad);
+            *(if inside(middle) { &mut good } else { &mut bad }) = middle;
+        }
+        at(good)
+    };
+    let low = if first == 0 { from } else { refined(share(first), share(first - 1)) };
+    let high = if last == CHECKED { to } else { refined(share(last), share(last + 1)) };
+    Some((low, high))
 }
 
 /// Returns why the contacts of a sweep are outside the trained range. `None` if they are inside.

@@ -18,9 +18,10 @@ use serde::{Deserialize, Serialize};
 
 /// Number of contacts of a curve by the reduced model.
 pub const CURVE: usize = 41;
-/// Number of contacts of a Stribeck curve: eight per decade of speed.
+/// Number of contacts of a Stribeck curve: eight per decade of speed, and more for a reduced model.
 pub const STRIBECK: usize = 57;
-/// Number of full solutions on the curve: every fourth of its contacts.
+pub const REDUCED_STRIBECK: usize = 101;
+/// Number of full solutions on the curve: every fourth of its contacts, every tenth of a Stribeck curve's.
 const MARKERS: usize = 11;
 /// Number of full solutions that form the curve of a line contact without a reduced model.
 const FULL_CURVE: usize = 21;
@@ -191,7 +192,8 @@ impl Sweeps {
             sweep.question(title, grid, count, Method::Full).ask(bench, wake(ctx))
         };
         let wanted = if served.is_err() && plane.is_none() { FULL_CURVE } else { MARKERS };
-        self.full.run(ask("Full solutions along the curve", &sweep, wanted));
+        let part = served.as_ref().map_or_else(|_| sweep.clone(), |served| served.part_of(&sweep));
+        self.full.run(ask("Full solutions along the curve", &part, wanted));
         self.beside = Background::default();
         if let Some((companion, by)) = sweep.accompanied().filter(|_| served.is_err()) {
             self.beside.run(ask(companion.title(), &by, sweep.companions(wanted)));

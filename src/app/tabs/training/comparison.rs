@@ -107,7 +107,7 @@ impl Comparison {
             let moes = self.scores.first().and_then(|score| score.tests.get(k)).map(|tested| tested.0.point.moes());
             let mut row = vec![moes.map(|moes| moes.m), moes.map(|moes| moes.l)];
             for score in &self.scores {
-                let [h_c, h_min, ..] = score.tests.get(k).map_or([None; 4], errors);
+                let [h_c, h_min, ..] = score.tests.get(k).map(errors).unwrap_or_default();
                 row.extend([h_c, h_min]);
             }
             row

@@ -153,7 +153,7 @@ impl Training {
         let Some(spec) = document.training_spec().cloned() else { return };
         // The training uses the cavitation model of the contact, and its heat for a thermal model.
         let heat = document.lubricant.heat.filter(|_| spec.heats());
-        let spec = spec.under(document.lubricant.cavitation).heated(heat);
+        let spec = spec.under(document.lubricant.cavitation).heated(heat).on_surfaces(document.lubricant.roughness);
         match spec.check() {
             Ok(()) => self.run(ctx, TrainingState::new(spec)),
             Err(error) => self.notices = vec![Notice::wrong(error)],
@@ -243,7 +243,7 @@ impl Training {
         let known = [("in the program", embedded), ("in use", in_use), ("before", self.former.clone())];
         let known = known.into_iter().filter_map(|(name, model)| Some((name.to_owned(), model?)));
         let made = self.made.iter().map(|made| ("new".to_owned(), Arc::clone(&made.model)));
-        let kind = |domain: &Domain| (domain.contact, domain.space.of_ellipses(), domain.heats());
+        let kind = |domain: &Domain| (domain.contact, domain.space.of_ellipses(), domain.heats(), domain.is_rough());
         let mut models: Vec<(String, Arc<ReducedModel>)> = Vec::new();
         // The trained model keeps its name even if it is in use.
         let is_made = |model: &Arc<ReducedModel>| self.made.iter().any(|made| Arc::ptr_eq(&made.model, model));

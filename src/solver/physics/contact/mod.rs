@@ -19,6 +19,6 @@ pub use error::ContactError;
 pub use film_asymptotes::{FilmAsymptotes, FilmShape, ellipse_film, expected_film, moes_film};
 pub use film_formulas::{FilmFormula, FilmPrediction};
 pub use kind::ContactKind;
-pub use moes::{DEFAULT_VISCOSITY_PA_S, MoesRequest, si_from_moes};
+pub use moes::{DEFAULT_MODULUS_PA, DEFAULT_VISCOSITY_PA_S, MoesRequest, si_from_moes};
 pub use operating_point::{Hertz, Moes, OperatingPoint, PLAUSIBLE_HERTZ_PRESSURE_PA, reduced_modulus};
 pub use sliding::Sliding;

@@ -31,6 +31,8 @@ pub struct MoesRequest {
     pub alpha_per_pa: Option<f64>,
 }
 
+/// Reduced modulus E′ of the default realisation \[Pa\].
+pub const DEFAULT_MODULUS_PA: f64 = 231e9;
 /// Viscosity η₀ of the default realisation \[Pa·s\].
 pub const DEFAULT_VISCOSITY_PA_S: f64 = 0.01;
 /// Speed u_m of the default realisation at L = 0, where it does not follow from L \[m/s\].
@@ -96,7 +98,7 @@ pub fn si_from_moes(request: &MoesRequest) -> Result<OperatingPoint, ContactErro
 /// Returns the operating point for a request in which L and α are consistent.
 fn si_from_moes_with(request: &MoesRequest) -> Result<OperatingPoint, ContactError> {
     let MoesRequest { kind, m, l, .. } = *request;
-    let e = request.modulus_pa.unwrap_or(231e9);
+    let e = request.modulus_pa.unwrap_or(DEFAULT_MODULUS_PA);
     let eta = request.viscosity_pa_s.unwrap_or(DEFAULT_VISCOSITY_PA_S);
     let radius_default = request.default_radius();
     // The load is E′ R^d u^q M with the speed group u = 2 η₀ u_m / (E′ R).

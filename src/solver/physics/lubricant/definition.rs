@@ -52,11 +52,26 @@ pub(crate) struct WholeLubricant {
     roughness: Option<Roughness>,
 }
 
-/// Serialised form of the lubricant of a reduced model, which supports smooth surfaces only: `#[serde(with =
-/// "LubricantOfModel")]`.
+/// Serialised form of the lubricant of a reduced model, which mentions the roughness only for rough surfaces. For
+/// self-describing formats such as JSON: `#[serde(with = "LubricantOfModel")]`.
 #[derive(Serialize, Deserialize)]
 #[serde(remote = "Lubricant", deny_unknown_fields)]
 pub(crate) struct LubricantOfModel {
+    density: DensityLaw,
+    viscosity: ViscosityLaw,
+    shear: ShearLaw,
+    limiting_stress: Option<LimitingStress>,
+    cavitation: Cavitation,
+    heat: Option<Heat>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    roughness: Option<Roughness>,
+}
+
+/// Serialised form of the lubricant of a transient contact, which has smooth surfaces: `#[serde(with =
+/// "LubricantOfMarch")]`.
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "Lubricant", deny_unknown_fields)]
+pub(crate) struct LubricantOfMarch {
     density: DensityLaw,
     viscosity: ViscosityLaw,
     shear: ShearLaw,

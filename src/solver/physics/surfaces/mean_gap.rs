@@ -37,3 +37,21 @@ fn deep_gap(x: f64, density: f64) -> (f64, f64) {
     let ratio = 1.0 / (x + tail);
     (density * tail * ratio, density * ratio)
 }
+
+/// Returns the separation l at which the mean gap has a value T > 0, the inverse of [`mean_gap`]. Newton's method for
+/// ln T, which is concave, so that it converges from the smaller separation at which it starts.
+pub fn separation_of_gap(gap: f64) -> f64 {
+    let mut l = if gap > 1.0 { gap } else { -(-2.0 * gap.ln()).sqrt() };
+    for _ in 0..60 {
+        let (own, slope) = mean_gap(l);
+        if own <= 0.0 || own.is_nan() {
+            return l;
+        }
+        let step = own / slope * (gap / own).ln();
+        l += step;
+        if step.abs() < 1e-13 * (1.0 + l.abs()) {
+            break;
+        }
+    }
+    l
+}

@@ -17,6 +17,6 @@ pub use asperity_laws::AsperityLaw;
 pub use asperity_table::AsperityTable;
 pub use finish::{FINISHES, Finish, HeightMeasure};
 pub use flow_factors::{FlowFactors, PEKLENIK};
-pub use mean_gap::mean_gap;
+pub use mean_gap::{mean_gap, separation_of_gap};
 pub use roughness::{LARGEST_RMS, Roughness, SurfaceConstant, SurfaceError};
 pub use scaled::ScaledRoughness;

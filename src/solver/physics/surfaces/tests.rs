@@ -193,3 +193,12 @@ fn real_contact_area_is_that_of_its_summits() {
     close(law.pressure(MODULUS_PA, l).0 / law.contact_area(MODULUS_PA, l).unwrap(), wanted, 1e-5);
     assert_eq!(AsperityLaw::Exponential { pressure: 1e9, decay: 0.5 }.contact_area(MODULUS_PA, 0.0), None);
 }
+
+#[test]
+fn the_separation_of_a_gap_is_the_inverse_of_the_gap() {
+    for k in -60..=60 {
+        let l = 0.2 * f64::from(k);
+        let again = separation_of_gap(mean_gap(l).0);
+        assert!((again - l).abs() < 1e-10 * (1.0 + l.abs()), "{l}: {again}");
+    }
+}

@@ -25,6 +25,17 @@ const LITTLE: f64 = 1e-3;
 /// Temperature rise \[K\] added before the logarithm.
 const COOL_K: f64 = 1.0;
 
+/// Error that the calibrations of some models estimate in addition to the three of all.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FurtherError {
+    /// Traction coefficient; for rough surfaces that of the film.
+    Traction,
+    /// Mid-film temperature rise.
+    Rise,
+    /// Asperity load share.
+    LoadShare,
+}
+
 /// One measured case.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Evidence {
@@ -37,24 +48,35 @@ pub struct Evidence {
 /// Measured relative errors of a reduced solution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measured {
-    /// Error of the central film thickness H_c.
+    /// Error of the central film thickness H_c; for rough surfaces relative to σ/2 if H_c is smaller.
     pub h_c: f64,
-    /// Error of the minimum film thickness H_min.
+    /// Error of the minimum film thickness H_min, relative to the same.
     pub h_min: f64,
     /// Error of the state, e_z.
     pub state: f64,
-    /// Error of the traction coefficient. `None` without sliding, if the traction is unphysical, or if the model has
-    /// no traction quadrature.
+    /// Error of the traction coefficient; for rough surfaces of the film's. `None` without sliding, if the traction is
+    /// unphysical, or if the model has no traction quadrature.
     pub traction: Option<f64>,
     /// Error of the mid-film temperature rise at X = 0 of thermal contacts.
     pub rise: Option<f64>,
+    /// Absolute error of the asperity load share of rough surfaces.
+    pub load_share: Option<f64>,
 }
 
 impl Measured {
-    /// Returns the first `count` errors: of H_c, H_min, state, traction, and temperature rise; NaN if not measured.
-    pub(super) fn values(&self, count: usize) -> impl Iterator<Item = f64> {
-        let known = |value: Option<f64>| value.unwrap_or(f64::NAN);
-        [self.h_c, self.h_min, self.state, known(self.traction), known(self.rise)].into_iter().take(count)
+    /// Returns the errors of every solution: of H_c, H_min and state.
+    pub(super) fn of_every_solution(&self) -> [f64; ERRORS] {
+        [self.h_c, self.h_min, self.state]
+    }
+
+    /// Returns these errors and further ones; NaN if not measured.
+    pub(super) fn values(&self, further: &'static [FurtherError]) -> impl Iterator<Item = f64> {
+        let further = further.iter().map(|error| match error {
+            FurtherError::Traction => self.traction,
+            FurtherError::Rise => self.rise,
+            FurtherError::LoadShare => self.load_share,
+        });
+        self.of_every_solution().into_iter().chain(further.map(|value| value.unwrap_or(f64::NAN)))
     }
 }
 
@@ -77,8 +99,8 @@ enum Feature {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FeatureSet {
     further: [Option<Feature>; MOST_FURTHER],
-    /// Number of estimated errors: of H_c, H_min, state, then traction, then temperature rise.
-    pub(super) errors: usize,
+    /// Estimated errors in addition to those of H_c, H_min and state, in the order of their laws.
+    pub(super) errors: &'static [FurtherError],
 }
 
 /// Quantities that are listed below, or are features of every solution.
@@ -102,7 +124,7 @@ impl FeatureSet {
         let stresses = lubricants && domain.is_shear_thinning();
         let warmth = heat && space.knows(Quantity::Speed);
         let first = [
-            (slides, Feature::Sliding),
+            (slides || domain.is_rough(), Feature::Sliding),
             (slides && space.varies(Quantity::NewtonianPlateauRatio), Feature::Linear(Quantity::NewtonianPlateauRatio)),
             (warmth, Feature::Log(Quantity::Speed)),
             (warmth, Feature::Rise),
@@ -119,7 +141,13 @@ impl FeatureSet {
         });
         let mut further = [None; MOST_FURTHER];
         further.iter_mut().zip(first.chain(other)).for_each(|(place, feature)| *place = Some(feature));
-        Self { further, errors: ERRORS + usize::from(slides) + usize::from(heat) }
+        let errors: &[FurtherError] = match (domain.is_rough(), heat, slides) {
+            (true, ..) => &[FurtherError::Traction, FurtherError::LoadShare],
+            (_, true, _) => &[FurtherError::Traction, FurtherError::Rise],
+            (_, _, true) => &[FurtherError::Traction],
+            _ => &[],
+        };
+        Self { further, errors }
     }
 
     /// Returns the number of features.
@@ -134,7 +162,7 @@ impl FeatureSet {
 pub struct Features {
     pub(super) values: [f64; MOST_FEATURES],
     pub(super) count: usize,
-    pub(super) errors: usize,
+    pub(super) errors: &'static [FurtherError],
 }
 
 impl Features {

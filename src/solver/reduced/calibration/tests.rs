@@ -20,8 +20,9 @@ fn synthetic(count: usize, seed: u64) -> Vec<Evidence> {
             let mut values = [0.0; MOST_FEATURES];
             values[..FEATURES].copy_from_slice(&[place[0], place[1], place[2], residual, -12.0]);
             Evidence {
-                features: Features { values, count: FEATURES, errors: ERRORS },
+                features: Features { values, count: FEATURES, errors: &[] },
                 errors: Measured {
+                    load_share: None,
                     h_c: error.exp(),
                     h_min: (error - 1.0).exp(),
                     state: (error + 1.0).exp(),
@@ -150,7 +151,7 @@ fn sliding(count: usize, seed: u64) -> Vec<Evidence> {
     for case in &mut cases {
         let srr = if rng.f64() < 0.1 { 0.0 } else { rng.f64() };
         (case.features.values[5], case.features.values[6]) = (srr, rng.f64());
-        (case.features.count, case.features.errors) = (FEATURES + 2, ERRORS + 1);
+        (case.features.count, case.features.errors) = (FEATURES + 2, &[FurtherError::Traction]);
         case.errors.traction = (srr > 0.0).then(|| case.errors.h_c * (2.0 - 3.0 * srr + rng.f64()).exp());
     }
     cases
@@ -177,7 +178,7 @@ fn traction_has_a_bound_of_its_own_where_a_model_knows_sliding() {
 fn the_rise_has_a_bound_of_its_own_where_a_model_knows_heat() {
     let mut cases = sliding(400, 8);
     for case in &mut cases {
-        case.features.errors = ERRORS + 2;
+        case.features.errors = &[FurtherError::Traction, FurtherError::Rise];
         case.errors.rise = Some(3.0 * case.errors.h_c);
     }
     let calibration = Calibration::fit(&cases).unwrap();
@@ -195,7 +196,7 @@ fn cut(count: usize, seed: u64) -> Vec<Evidence> {
         let values = &mut case.features.values;
         (values[5], values[6], values[7], values[8]) = (rng.f64(), rng.f64(), rng.f64(), -6.0 * rng.f64());
         let size = 0.01f64.powf(1.0 + values[8] / 6.0);
-        (case.features.count, case.features.errors) = (FEATURES + 4, ERRORS + 1);
+        (case.features.count, case.features.errors) = (FEATURES + 4, &[FurtherError::Traction]);
         case.errors.traction = Some(size * case.errors.h_c);
     }
     cases

@@ -7,7 +7,7 @@ use crate::solver::observer::Observer;
 use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::model::{Snapshot, Window};
 use crate::solver::reduced::operators::{Case, OnlineOutcome, Operators, RowObserver, RuleTraction, Start, Stop};
-use crate::solver::reduced::start::{Guess, film_number};
+use crate::solver::reduced::start::{FilmUnit, Guess};
 use crate::solver::reduced::temperature_field::TemperatureField;
 
 /// Converged online iteration.
@@ -39,7 +39,9 @@ const LEAST_SHARE: f64 = 0.01;
 /// contacts and for the dissertation's iteration.
 fn share_of_tolerance(problem: &Problem, h_c: f64, options: &ReducedOptions) -> f64 {
     let newtonian = problem.shear.is_none() && problem.heat.is_none();
-    if newtonian && options.starts == Starts::Explorer { (h_c / THICK).clamp(LEAST_SHARE, 1.0) } else { 1.0 }
+    // Errors of rough contacts are relative to σ if the film is thinner.
+    let film = problem.rough.map_or(h_c, |rough| h_c.max(0.5 * rough.sigma));
+    if newtonian && options.starts == Starts::Explorer { (film / THICK).clamp(LEAST_SHARE, 1.0) } else { 1.0 }
 }
 
 /// Observers of an attempt: `rows` receives the sampled equations of every iterate, and `wish` is checked for
@@ -94,7 +96,7 @@ pub(super) fn attempt(
     let mut h_0 = start.h_c - (operators.lifted(&coefficients) + offset);
     let outcome = operators.newton(&case, (&mut coefficients, &mut h_0), watch.rows());
     let h_c = h_0 + (operators.lifted(&coefficients) + offset);
-    if outcome.converged && h_c > 0.0 {
+    if outcome.converged && (h_c > 0.0 || problem.rough.is_some()) {
         let OnlineOutcome { iterations, residual, .. } = outcome;
         let readings = operators.read(&case, &coefficients, h_0);
         let (traction, heat) = (readings.traction, readings.temperatures.take());
@@ -124,7 +126,7 @@ pub(super) fn walk(
     while stride > 0.01 {
         let next = f64::min(t + stride, 1.0);
         let problem = if next >= 1.0 { *target } else { at(next)? };
-        let h_c = guess.h_c * film_number(&problem.point) / film_number(&from_point);
+        let h_c = FilmUnit::carried(window, guess.h_c, (&from_point, &problem.point));
         let start = Guess { h_c, ..guess.clone() };
         match attempt(window, operators, &problem, &start, usize::MAX, options, watch) {
             Ok(found) => {

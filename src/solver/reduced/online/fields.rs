@@ -11,7 +11,9 @@ use crate::solver::full::{Mesh, Problem, Report, Scalars, Solution, Termination,
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::reduced::ReducedSolution;
 use crate::solver::reduced::dense;
-use crate::solver::reduced::operators::{Stations, carried, cut_off};
+use crate::solver::reduced::operators::{Operators, Stations, carried, cut_off};
+use std::borrow::Cow;
+use std::cell::OnceCell;
 use std::sync::Arc;
 
 impl Online {
@@ -24,6 +26,7 @@ impl Online {
         let fields = self.fields(solution)?;
         let scalars = fields.scalars(solution.h_0);
         let multiplier = fields.multiplier();
+        let asperity_pressure = self.asperity_pressure(solution.window, &fields);
         let heat = solution.heat.as_ref().and_then(|warmth| fields.temperatures(&warmth.theta)).map(Arc::new);
         let Fields { problem, grid, scale, pressure, film, .. } = fields;
         let (x, y) = match &grid {
@@ -40,7 +43,7 @@ impl Online {
             film,
             multiplier,
             fraction: Vec::new(),
-            asperity_pressure: Vec::new(),
+            asperity_pressure,
             report: Report {
                 termination: Termination::Converged,
                 newton_iterations: solution.iterations,
@@ -55,6 +58,19 @@ impl Online {
             grid_cost: self.model.windows.get(solution.window).and_then(|window| window.grid_cost(&solution.point)),
             heat,
         })
+    }
+
+    /// Returns the asperity pressure as a node array; empty for smooth surfaces.
+    fn asperity_pressure(&self, window: usize, fields: &Fields) -> Vec<f64> {
+        let Fields { problem, grid, film, .. } = fields;
+        let Some(rough) = &problem.rough else { return Vec::new() };
+        let operators = self.windows.get(window).and_then(OnceCell::get);
+        let known = operators.and_then(Operators::asperity_table).filter(|table| rough.fits(table));
+        let table = known.map_or_else(|| Cow::Owned(rough.table()), Cow::Borrowed);
+        let carried = |(weight, film): (&f64, &f64)| {
+            if *weight > 0.0 { rough.asperity_pressure(&table, *film).0 } else { 0.0 }
+        };
+        grid.weights().iter().zip(film).map(carried).collect()
     }
 
     /// Reconstructs the scalars only.
@@ -106,7 +122,7 @@ impl Online {
         let (nodes, across) = (window.grid.len(), window.grid.nodes().1);
         // Pressures behind the last cavitation boundary are zero.
         let ahead = match solution.fronts.iter().max() {
-            Some(last) if self.options.deformation_modes.is_none() && window.shapes.is_none() => {
+            Some(last) if self.options.deformation_modes.is_none() && window.shapes.is_none() && !window.is_rough() => {
                 (last * across).min(nodes)
             }
             _ => nodes,
@@ -116,7 +132,8 @@ impl Online {
         let mut pressure = vec![0.0; nodes];
         window.pressure.field(&solution.coefficients, single, &mut pressure[..ahead]);
         let ellipse = problem.point.ellipse();
-        let ruptures = !solution.fronts.is_empty();
+        // The total pressure of rough surfaces continues behind the boundary.
+        let ruptures = !solution.fronts.is_empty() && !window.is_rough();
         let mut film = match &window.shapes {
             Some(shapes) => {
                 let mut film = vec![0.0; pressure.len()];
@@ -151,7 +168,7 @@ impl Online {
                 *h = offset + 0.5 * (x * x + across) + scale * *h;
             }
         }
-        let fronts = solution.fronts.clone();
+        let fronts = if ruptures { solution.fronts.clone() } else { Vec::new() };
         Ok(Fields { problem, grid: window.grid.clone(), scale, pressure, film, fronts })
     }
 }

@@ -35,7 +35,7 @@ impl ReducedModel {
             kriging
                 .get_or_init(|| Kriging::of(served, Metric::of_starts(&self.domain.space)))
                 .as_ref()?
-                .start(&problem.point)
+                .start(served, &problem.point)
         };
         let from_both_ends = (0..snapshots.len()).map(|k| match k % 2 {
             0 => snapshots[k / 2],
@@ -47,7 +47,7 @@ impl ReducedModel {
                 attempt(served, &mut operators, &problem, &guess, usize::MAX, &options, &mut Watch::of(&()))
                     .is_ok_and(|found| (found.h_c - snapshot.h_c).abs() <= WITHIN * snapshot.h_c.abs())
             };
-            gives(start::carried(snapshot, &problem.point))
+            gives(start::carried(served, snapshot, &problem.point))
                 || served.anchor.is_some()
                     && kriged(&problem).is_some_and(|guess| {
                         self.shares_of_modes().0.iter().any(|share| gives(guess.with_modes(*share)))

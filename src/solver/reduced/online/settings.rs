@@ -21,9 +21,15 @@ pub enum ReducedError {
         "the reduced model is isothermal; leave heat out, use the full solver, or name a model trained for thermal contacts"
     )]
     Heat,
-    /// The surfaces are rough, and the model was trained for smooth ones.
-    #[error("reduced models do not cover rough surfaces; use the full solver, or leave the roughness out")]
-    Roughness,
+    /// The surfaces are rough, and the model was trained for smooth ones, or the reverse.
+    #[error(
+        "the reduced model was trained for {} surfaces, not for {} ones; use the full solver or another model",
+        if *rough { "smooth" } else { "rough" }, if *rough { "rough" } else { "smooth" }
+    )]
+    Roughness {
+        /// True if the surfaces of the contact are rough.
+        rough: bool,
+    },
     /// The model is of the other kind of contact.
     #[error("the reduced model is of {} contacts, but the operating point is that of a {} contact", model.name(), given.name())]
     OtherContact {
@@ -85,7 +91,7 @@ impl ReducedError {
     pub fn without_solution(&self) -> Option<usize> {
         match self {
             Self::NotConverged { iterations, .. } => Some(*iterations),
-            Self::Implausible(_) | Self::Ellipse { .. } | Self::Roughness => Some(0),
+            Self::Implausible(_) | Self::Ellipse { .. } | Self::Roughness { .. } => Some(0),
             _ => None,
         }
     }

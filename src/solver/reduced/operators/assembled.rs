@@ -11,6 +11,7 @@ use crate::solver::discrete::grid::dot;
 use crate::solver::discrete::reynolds::{RowGeometry, STENCIL};
 use crate::solver::full::Problem;
 use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::surfaces::AsperityTable;
 use crate::solver::reduced::model::Window;
 use faer::MatRef;
 
@@ -32,7 +33,7 @@ impl Operators {
     pub fn new(window: &Window, modes: usize, deformation_modes: Option<usize>, flow: Flow<'_>) -> Self {
         let modes = modes.clamp(1, window.pressure.count());
         let axes = match (flow, window.grid.kind()) {
-            (Flow::Newtonian | Flow::Transient(_), _) => 0,
+            (Flow::Newtonian | Flow::Rough | Flow::Transient(_), _) => 0,
             (Flow::Thinning | Flow::Thermal, ContactKind::Line) => 1,
             (Flow::Thinning | Flow::Thermal, ContactKind::Point) => 2,
         };
@@ -113,6 +114,11 @@ impl Operators {
         if factor.is_finite() && factor > 0.0 {
             coefficients.iter_mut().for_each(|c| *c *= factor);
         }
+    }
+
+    /// Returns the table of the last contact's asperity law; `None` for smooth surfaces.
+    pub fn asperity_table(&self) -> Option<&AsperityTable> {
+        self.parts.iter().find_map(|part| part.asperity_table())
     }
 
     /// Returns the reports of all parts about a state, which must be the one that the last iteration ended with.

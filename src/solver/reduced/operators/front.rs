@@ -11,14 +11,14 @@
 
 mod bending;
 mod following;
-mod reach;
+pub(super) mod reach;
 
 pub(crate) use reach::{cut_off, fronts, passed_rows};
 
 use self::bending::{Bent, StoredFront};
 use self::reach::{each_passed, passed};
 use super::case::{Case, Start, State};
-use super::part::{Centre, Kind, Moved, Part, Setting, Step};
+use super::part::{Centre, Flow, Kind, Moved, Part, Setting, Step};
 use super::readings::Readings;
 use super::sampled_system::SampledSystem;
 use crate::solver::discrete::grid::dot;
@@ -31,13 +31,13 @@ use faer::{Accum, Mat, MatMut, MatRef, Par};
 
 /// Part of the operators of local models with complementarity.
 pub(super) const KIND: Kind = Kind {
-    nodes: |window, _, nodes| {
-        if window.cavitation == Cavitation::Complementarity {
+    nodes: |window, flow, nodes| {
+        if window.cavitation == Cavitation::Complementarity && flow != Flow::Rough {
             each_passed(window, |_, unknown| nodes.at_times.extend(window.grid.row(unknown).0));
         }
     },
-    make: |Setting { window, .. }, system| {
-        let cavitates = window.cavitation == Cavitation::Complementarity;
+    make: |Setting { window, flow, .. }, system| {
+        let cavitates = window.cavitation == Cavitation::Complementarity && flow != Flow::Rough;
         cavitates.then(|| -> Box<dyn Part> { Box::new(Front::new(window, system)) })
     },
 };

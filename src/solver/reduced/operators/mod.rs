@@ -1,6 +1,7 @@
 //! Reduced operators of one local model for chosen numbers of modes, composed of parts. Nothing in them is of large
 //! scale.
 
+mod asperities;
 mod assembled;
 mod case;
 mod deformation;

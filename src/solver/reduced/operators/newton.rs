@@ -97,7 +97,8 @@ impl Operators {
             }
             let Self { system, parts, equations, .. } = self;
             spread_step(system, parts);
-            let omega = system.damping(case.scale);
+            let longest = parts.iter().find_map(|part| part.longest_step(system, case));
+            let omega = longest.unwrap_or_else(|| system.damping(case.scale));
             let former = outcome.step;
             outcome.step = system.take_step(omega, coefficients, h_0);
             if !outcome.step.is_finite() {
@@ -154,7 +155,9 @@ impl Operators {
         if !parts.iter_mut().any(|part| part.nodes(system, case, state)) {
             system.evaluate_nodes(case, wanted == Wanted::Rest);
         }
-        let mut sum = system.evaluate_rows(case, matches!(wanted, Wanted::Step { .. }));
+        let sloping = matches!(wanted, Wanted::Step { .. });
+        let mut sum = system.evaluate_rows(case, sloping);
+        sum += parts.iter_mut().map(|part| part.rows(system, case, sloping)).sum::<f64>();
         if let Wanted::Step { exact } = wanted {
             parts.iter_mut().for_each(|part| part.slopes(system));
             system.evaluate_jacobian(scale);

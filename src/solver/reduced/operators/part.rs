@@ -5,6 +5,7 @@ use super::deformation::Deformation;
 use super::readings::Readings;
 use super::sampled_system::SampledSystem;
 use super::support::Needed;
+use crate::solver::physics::surfaces::AsperityTable;
 use crate::solver::reduced::model::Window;
 use faer::MatMut;
 
@@ -17,6 +18,8 @@ pub(crate) enum Flow<'a> {
     Thinning,
     /// Steady, thermal; the lubricant may be shear-thinning.
     Thermal,
+    /// Steady, Newtonian, isothermal, with rough surfaces.
+    Rough,
     /// Transient, Newtonian, isothermal. Rows may later use these further nodes.
     Transient(&'a [usize]),
 }
@@ -90,6 +93,12 @@ pub(super) trait Part: Send {
         false
     }
 
+    /// Evaluates the rows in [`RowState::Held`](super::sampled_system::RowState::Held), with their derivatives if
+    /// `sloping`. Returns the sum of their weighted squares.
+    fn rows(&mut self, _system: &mut SampledSystem, _case: &Case<'_>, _sloping: bool) -> f64 {
+        0.0
+    }
+
     /// Modifies the derivatives of the rows by P and H of their nodes.
     fn slopes(&mut self, _system: &mut SampledSystem) {}
 
@@ -100,6 +109,11 @@ pub(super) trait Part: Send {
     /// step are used again, and only the right-hand side is new.
     fn equations(&mut self, _coefficients: &[f64], _matrix: Option<MatMut<'_, f64>>, _rhs: &mut [f64]) {}
 
+    /// Returns the longest admissible share of the step, 0…1, by the part's own limits; `None` to leave this to others.
+    fn longest_step(&self, _system: &SampledSystem, _case: &Case<'_>) -> Option<f64> {
+        None
+    }
+
     /// Updates the part after a step; may change the state that the step led to.
     fn settle(
         &mut self,
@@ -109,6 +123,11 @@ pub(super) trait Part: Send {
         _state: (&mut [f64], &mut f64),
     ) -> Moved {
         Moved::Still
+    }
+
+    /// Returns the table of the last contact's asperity law; `None` for smooth surfaces.
+    fn asperity_table(&self) -> Option<&AsperityTable> {
+        None
     }
 
     /// Writes the part's results for the state that the iteration ended with.

@@ -3,11 +3,11 @@
 use super::part::{Flow, Kind, Part, Setting};
 use super::sampled_system::SampledSystem;
 use super::support::Needed;
-use super::{front, heat, shaped, traction};
+use super::{asperities, front, heat, shaped, traction};
 use crate::solver::reduced::model::Window;
 
 /// All kinds of parts. In each phase of an iteration the parts act in this order.
-static KINDS: [Kind; 4] = [shaped::KIND, front::KIND, heat::KIND, traction::KIND];
+static KINDS: [Kind; 5] = [shaped::KIND, front::KIND, asperities::KIND, heat::KIND, traction::KIND];
 
 /// Returns the nodes that the parts use in addition to those of the sampled equations.
 pub(super) fn needed(window: &Window, flow: Flow<'_>) -> Needed {

@@ -21,6 +21,8 @@ pub(super) enum RowState {
     Penalised,
     /// It holds without a penalty.
     Full,
+    /// A part evaluates it.
+    Held,
     /// It lies behind the cavitation boundary: the multiplier λ balances it, whatever its value.
     Cavitated,
 }
@@ -161,6 +163,7 @@ impl SampledSystem {
             let penalty = match state {
                 RowState::Penalised => penalty,
                 RowState::Full => 0.0,
+                RowState::Held => continue,
                 RowState::Cavitated => {
                     self.values[r] = 0.0;
                     (self.by_pressure[r], self.by_film[r]) = ([0.0; STENCIL], [0.0; STENCIL]);

@@ -6,6 +6,8 @@ use crate::solver::reduced::model::Window;
 
 /// Number of nodes that B may move beyond its positions in the training.
 const MARGIN: usize = 4;
+/// Number of nodes that B of a rough line contact may move beyond its positions in the training.
+const FARTHER: usize = 16;
 /// Number of nodes in front of B whose pressures are checked: k of (D.17).
 pub(super) const BEFORE: usize = 5;
 
@@ -46,6 +48,16 @@ pub(super) fn passed(window: &Window) -> Vec<(usize, usize)> {
         (lowest, highest.max(lowest))
     };
     (0..grid.lines()).map(of_line).collect()
+}
+
+/// Calls `tell` with the rows, as unknowns, that B of a rough line contact may pass or look at, column by column.
+pub(in crate::solver::reduced::operators) fn each_near(window: &Window, tell: impl FnMut(usize)) {
+    let grid = &window.grid;
+    let fronts = || window.snapshots.iter().filter_map(|snapshot| snapshot.fronts.first().copied());
+    let (first, unknowns) = (grid.line_and_column(grid.node(0)).1, grid.unknowns());
+    let lowest = fronts().min().unwrap_or(first).saturating_sub(FARTHER + first);
+    let end = (fronts().max().unwrap_or(unknowns) + FARTHER).saturating_sub(first).min(unknowns);
+    (lowest.min(end)..end).for_each(tell);
 }
 
 /// Returns the rows, as unknowns, that the boundary may pass, line by line; empty for cavitation by a penalty.
