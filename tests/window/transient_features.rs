@@ -62,7 +62,7 @@ fn a_feature_is_picked_dragged_refused_undone_and_passes_the_contact() {
     // The solver's sentence stands next to the entry, and the entry returns.
     let depth = |harness: &Window| harness.get_by_role_and_label(Role::SpinButton, "Depth d").value().unwrap();
     let before = depth(&harness);
-    set(&mut harness, Role::SpinButton, "Depth d", 1e7);
+    set(&mut harness, Role::SpinButton, "Depth d", 1e4);
     assert!(shows(&harness, "at most the flattening of the Hertzian contact") && depth(&harness) == before);
     set(&mut harness, Role::SpinButton, "Step ΔT", 0.9);
     assert!(shows(&harness, "moves a feature") || shows(&harness, "equal to its spacing"));
@@ -134,7 +134,7 @@ fn the_amplitude_curve_follows_the_contact() {
     assert!(second.column("wavelength")[0] < lambda[0], "the same Ψ is a shorter wave");
     click(&mut harness, "Body 2");
     there(&mut harness);
-    assert!(shows(&harness, "moves with 1.100"));
+    assert!(shows(&harness, "moves with 1.10"));
     click(&mut harness, "Amplitude curve");
     assert!(shows(&harness, "Set-up"));
 }
@@ -166,7 +166,7 @@ fn circular_contacts_run_play_and_are_saved() {
 
     // What point contacts do not have is not offered, and the linearised view says so in a sentence.
     click(&mut harness, "Set-up");
-    assert!(shows(&harness, "Point contacts run by the full system") && !shows(&harness, "Radius"));
+    assert!(shows(&harness, "Point contacts run by the full system") && harness.query_by_label("Radius").is_none());
     set(&mut harness, Role::SpinButton, "Load A", 0.2);
     let study = saved(&mut harness, &folder);
     assert!(format!("{:?}", study.inputs.load).contains("0.2"));

@@ -3,14 +3,16 @@
 use super::entry::Entry;
 
 /// Returns the entries that contain every word of a query, best first. A match at the start of a word ranks before
-/// one inside a word, a match in the name before one in the keywords, and unavailable commands come last. Returns
-/// all entries without a query.
+/// one inside a word, a match in the name before one in the keywords, and among equal ones a name that starts with the
+/// whole query. Unavailable commands come last. Returns all entries without a query.
 pub fn find<'a>(entries: &'a [Entry], query: &str) -> Vec<&'a Entry> {
     let query = folded(query);
     let words: Vec<&str> = query.split_whitespace().collect();
     let mut found: Vec<(u32, &Entry)> =
         entries.iter().filter_map(|entry| Some((distance(entry, &words)?, entry))).collect();
-    found.sort_by_key(|(distance, entry)| (entry.refusal.is_some(), *distance));
+    found.sort_by_key(|(distance, entry)| {
+        (entry.refusal.is_some(), *distance, !folded(&entry.name).starts_with(query.trim()))
+    });
     found.into_iter().map(|(_, entry)| entry).collect()
 }
 
@@ -57,6 +59,7 @@ mod tests {
         assert_eq!(names(&desk, "47"), ["Open bearing_47.ron"]);
         assert_eq!(names(&desk, "interferogram"), ["Go to Contact map"]);
         assert_eq!(names(&desk, "contacts bearing"), ["Open bearing_47.ron"]);
+        assert_eq!(names(&desk, "run transient")[0], "Run transient");
         assert!(names(&desk, "no such thing").is_empty());
         assert_eq!(names(&desk, " ").len(), entry::all(&desk).len());
     }

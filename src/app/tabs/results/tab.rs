@@ -101,11 +101,13 @@ impl Results {
     }
 
     fn scene_ui(&mut self, ui: &mut Ui, scene: &Scene, context: &Context<'_>, commands: &mut Commands) {
-        let title = if scene.title.is_empty() { "Results" } else { &scene.title };
+        // A table of load cases is solved without becoming the scene of the document.
+        let of = self.run.as_ref().filter(|_| self.of_cases).map_or(scene, |run| &run.scene);
+        let title = if of.title.is_empty() { "Results" } else { &of.title };
         ui.horizontal_wrapped(|ui| {
             ui.heading(title);
-            if !scene.source.is_empty() {
-                ui.weak(&scene.source);
+            if !of.source.is_empty() {
+                ui.weak(&of.source);
             }
         });
         self.toolbar(ui, context.system, commands);

@@ -154,7 +154,9 @@ impl Transient {
         let hidden = of_dials.into_iter().filter(|(_, pane)| self.pane != Some(*pane));
         shared::status(ui, context, hidden.filter_map(|(name, _)| context.entries.message(name)));
         let view = context.transient;
-        if view.runs.iter().all(|run| run.trajectory.moments.is_empty()) {
+        // Runs of a line contact say nothing about a ball.
+        let other = view.setup.as_ref().is_some_and(|setup| setup.point.kind != context.document.point.kind);
+        if other || view.runs.iter().all(|run| run.trajectory.moments.is_empty()) {
             if !shared::is_coming(context) {
                 ui.weak("Press Run transient to see how pressure and film thickness follow the inputs.");
             }
