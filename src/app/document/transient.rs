@@ -44,12 +44,12 @@ impl Document {
     pub fn unsupported_in_time(&self) -> Option<Unsupported> {
         let by_model = |study: &TransientStudy| study.reduced.is_some() || study.linearised.is_some();
         let (lubricant, by_model) = (&self.lubricant, self.transient.as_ref().is_some_and(by_model));
-        // Full runs of scenes cover point contacts too; their grid is that of the scene.
-        let opened = |scene: &Scene| scene.contact == self.point.kind && matches!(scene.study, Study::Transient(_));
-        if !by_model && self.scene.as_ref().is_some_and(opened) {
-            return Unsupported::check_lubricant(lubricant).err();
-        }
         let of_model = |()| if by_model { Unsupported::check_model(lubricant) } else { Ok(()) };
+        // Runs of scenes cover point contacts too; their grid is that of the scene.
+        let opened = |scene: &Scene| scene.contact == self.point.kind && matches!(scene.study, Study::Transient(_));
+        if self.scene.as_ref().is_some_and(opened) {
+            return Unsupported::check_lubricant(lubricant).and_then(of_model).err();
+        }
         Unsupported::check(self.point.kind, lubricant).and_then(of_model).err()
     }
 
