@@ -135,7 +135,7 @@ mod tests {
         let heat = |scene: Scene| message(Scene { heat: Some(Heat::default()), ..scene });
         Scene { heat: Some(Heat::default()), ..good.clone() }.check().unwrap();
         let march = Study::GridStudy(grid_study::GridStudy { dx: vec![0.02, 0.01] });
-        assert!(heat(Scene { study: march, ..good.clone() }).contains("RandomTest, LoadCases and Training only"));
+        assert!(heat(Scene { study: march, ..good.clone() }).contains("RandomTest, LoadCases, Fit and Training only"));
         let full = Scene { study: Study::Point(point::Point { methods: vec![Method::Full] }), ..good.clone() };
         assert!(heat(Scene { srr: 2.0, ..full.clone() }).contains("moving heat sources"));
         let cold = Heat { inlet_temperature: 20.0, ..Heat::default() };

@@ -148,8 +148,7 @@ fn a_report_says_what_solve_says_on_one_page() {
         ["friction_force_n", "rolling_resistance_n", "power_loss_w"].map(|n| number(&total[n]));
     assert!((power / (3.0 * (0.02 * friction + 2.0 * rolling)) - 1.0).abs() < 1e-12);
     assert!((number(&total["torque_2_nm"]) / (0.05 * (friction + rolling)) - 1.0).abs() < 1e-12);
-    let film = format!("{:.1}", 1e9 * number(&result["h_c_m"]));
-    let film = format!("{} nm", film.trim_end_matches(".0"));
+    let film = format!("{:.4} µm", 1e6 * number(&result["h_c_m"]));
     for text in ["Roller &lt;7&gt;", "A. N. Author", "3.2 kN in total", "40.0 °C", "radius 12 mm", &film] {
         assert!(page.contains(text), "{text}");
     }

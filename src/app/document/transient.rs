@@ -106,7 +106,11 @@ fn of_a_plane(mut study: TransientStudy) -> TransientStudy {
     if matches!(speed, Signal::Reversing { .. }) {
         *speed = Signal::Constant;
     }
-    (study.reduced, study.linearised, study.mass_between) = (None, None, None);
+    // A model trained by responses is one of circular contacts.
+    if study.reduced.as_ref().is_none_or(|reduced| reduced.responses.is_none()) {
+        (study.reduced, study.linearised) = (None, None);
+    }
+    study.mass_between = None;
     (study.frames, study.scheme) = (vec![Frame::Fixed], Scheme::Default);
     (study.trainings, study.training_loads, study.training_contacts) = (Vec::new(), Vec::new(), Vec::new());
     study

@@ -246,18 +246,18 @@ mod tests {
         let folder = std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/assets/manual")).unwrap();
         let files: BTreeSet<String> =
             folder.map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned()).collect();
+        let files: BTreeSet<String> = files.into_iter().filter(|file| file != "pictures").collect();
         let pages: BTreeSet<String> = PAGES.iter().map(|page| page.file.to_owned()).collect();
         assert_eq!(files, pages);
         assert_eq!(pages.len(), PAGES.len());
     }
 
     #[test]
-    fn pages_have_titles_of_their_own_and_no_pictures() {
+    fn pages_have_titles_of_their_own() {
         let titles: BTreeSet<&str> = PAGES.iter().map(Page::title).collect();
         assert_eq!(titles.len(), PAGES.len());
         for page in PAGES {
             assert!(page.text.starts_with("# ") && page.title().len() > 3, "{}", page.file);
-            assert!(!page.text.contains("!["), "{}: the window loads no pictures", page.file);
         }
     }
 

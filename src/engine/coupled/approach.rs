@@ -240,7 +240,9 @@ mod tests {
         let wanted = Inputs { approach_m: 0.8 * inputs.approach_m, ..inputs };
         let first = unit.solve(&wanted).unwrap();
         unit.solve(&Inputs { speed_m_per_s: 1.1 * inputs.speed_m_per_s, load: 2.0 * inputs.load, ..wanted }).unwrap();
-        assert_eq!(unit.solve(&Inputs { load: 0.3 * inputs.load, ..wanted }).unwrap(), first);
+        let again = unit.solve(&Inputs { load: 0.3 * inputs.load, ..wanted }).unwrap();
+        // As text, because a quantity that the unit does not have is NaN.
+        assert_eq!(format!("{again:?}"), format!("{first:?}"));
     }
 
     /// Lets a mass fall on the contact and bounce. Returns the work of the contact over the closed cycle and the largest

@@ -8,6 +8,7 @@ use crate::scene::axis::Steps;
 use crate::scene::check::{count, number, refuse};
 use crate::scene::dynamics::ContactDynamics;
 use crate::scene::method::Method;
+use crate::scene::names;
 use crate::scene::written::is_default;
 use crate::solver::full::response::{Dynamics, Maxwell, check_lubricant};
 use crate::solver::physics::contact::OperatingPoint;
@@ -35,9 +36,9 @@ const SPEED: (f64, f64) = (1e-9, 1e6);
 
 /// Columns of the table over frequency and speed, and of the table of fitted elements. SI units; per metre of length for
 /// a line contact.
-const COLUMNS: [&str; 4] = ["speed", "frequency_hz", "stiffness", "damping"];
+const COLUMNS: [&str; 4] = [names::SPEED, "frequency_hz", "stiffness", "damping"];
 const ELEMENT: [&str; 6] =
-    ["speed", "static_stiffness", "series_stiffness", "relaxation_s", "parallel_damping", "deviation"];
+    [names::SPEED, "static_stiffness", "series_stiffness", "relaxation_s", "parallel_damping", "deviation"];
 
 /// Result at one speed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

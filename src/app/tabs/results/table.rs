@@ -78,7 +78,7 @@ pub fn ui(ui: &mut Ui, table: &Table, system: UnitSystem) {
 
 /// Draws a title. Returns true if it was clicked.
 fn title_ui(ui: &mut Ui, column: &ShownColumn, falls: Option<bool>) -> bool {
-    let mark = falls.map_or("", |falls| if falls { " ↓" } else { " ↑" });
+    let mark = falls.map_or("", |falls| if falls { " 9…1" } else { " 1…9" });
     let title = rich(&format!("{}{mark}", column.title), 12.0, Palette::of(ui).quiet);
     let title = ui.add(Button::new(title).frame(false)).on_hover_text("Sorts the lines by this column");
     title.clicked()
