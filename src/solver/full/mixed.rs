@@ -205,8 +205,8 @@ impl Solution {
 }
 
 impl Problem {
-    /// Returns the smallest film thickness to which errors are relative: σ/2 for rough surfaces, whose mean planes may
-    /// pass each other, and 0 for smooth ones.
+    /// Returns the film thickness to which errors of thinner films are relative: σ/2 for rough surfaces, whose mean
+    /// planes may pass each other, and 0 for smooth ones.
     pub fn least_film(&self) -> f64 {
         self.rough.map_or(0.0, |rough| 0.5 * rough.sigma)
     }

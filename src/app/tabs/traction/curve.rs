@@ -154,7 +154,7 @@ impl Running {
     fn complete(&mut self) -> bool {
         let Self { curve: Curve { sweep, served, .. }, rest, ctx, store, .. } = self;
         let (Some((job, _)), Some(by)) = (rest, &served.by) else { return false };
-        let question = sweep.question("Full solutions in addition to the model", Grid::Model, STRIBECK, Method::Full);
+        let question = sweep.question("Full solutions outside the trained range", Grid::Model, STRIBECK, Method::Full);
         *job = Some(by.ask(ctx, store, question));
         true
     }

@@ -61,7 +61,7 @@ pub struct Film {
 pub struct Asperities {
     /// Share of the load that asperities carry.
     pub load_share: f64,
-    /// Smallest film thickness to which errors are relative.
+    /// Film thickness to which errors of thinner films are relative.
     pub least_film: f64,
 }
 
