@@ -83,8 +83,9 @@ fn line_contact_shows_film_over_time_and_offers_a_ball() {
     assert!(harness.state().is_point());
     wait(&mut harness, "the ball", |app| app.central_film().is_some());
     assert!(shows(&harness, "Map of the contact"));
-    click(&mut harness, "Transient");
+    click(&mut harness, "TPWL");
     click(&mut harness, "Show a line contact");
+    click(&mut harness, "Transient");
     assert!(!harness.state().is_point() && shows(&harness, "Load amplitude"));
 }
 
