@@ -269,7 +269,7 @@ fn transient_refusals_agree_in_all_interfaces() {
 #[test]
 fn transient_studies_are_adapted_to_point_contacts_and_back() {
     let mut document = Document::default();
-    let reversing = Signal::Reversing { amplitude: 1.0, period: 20.0 };
+    let reversing = Signal::Reversing { amplitude: 1.0, period: 40.0 };
     let harmonic = Signal::Harmonic { amplitude: 0.2, period: 3.0 };
     let inputs = Inputs { radius: harmonic.clone(), speed: reversing, load: harmonic.clone() };
     let line = TransientStudy { inputs, ..document.transient_study() };

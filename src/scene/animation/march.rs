@@ -79,9 +79,10 @@ impl<'a> Scenery<'a> {
             Some(map) => (vec![map], self.profiles(state).into()),
             None => (self.profiles(state).into(), self.series(state).into()),
         };
-        let (moes, time) = (self.march.problem.moes, state.time * self.units[3]);
+        let (moes, ms) = (self.march.problem.moes, state.time * self.units[3]);
+        let time = if ms < 1.0 { format!("{:.1} µs", 1e3 * ms) } else { format!("{ms:.3} ms") };
         let caption =
-            format!("{{t}} = {time:.3} ms   {{T}} = {:.2}   {{M}} = {:.1}   {{L}} = {:.1}", state.time, moes.m, moes.l);
+            format!("{{t}} = {time}   {{T}} = {:.2}   {{M}} = {:.1}   {{L}} = {:.1}", state.time, moes.m, moes.l);
         composed((&left, &right), &caption, self.dark)
     }
 
