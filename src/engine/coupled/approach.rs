@@ -140,7 +140,7 @@ impl Coupled {
         };
         let inside: Vec<bool> = (0..=LOOKED_UP).map(|k| trained(k as f64)).collect();
         let Some(first) = inside.iter().position(|inside| *inside) else { return Ok((low, high)) };
-        let last = first + inside[first..].iter().take_while(|inside| **inside).count() - 1;
+        let last = first + inside.iter().skip(first).take_while(|inside| **inside).count() - 1;
         let end = |mut inner: f64, mut outer: f64| {
             if !(0.0..=LOOKED_UP as f64).contains(&outer) {
                 return load(inner);
@@ -288,7 +288,7 @@ mod tests {
                 let energy = (0.05 + 0.6 * random.f64()) * loads.1 * length;
                 let mass = 10f64.powf(-2.0 + 2.0 * random.f64());
                 let speed = (2.0 * energy / mass).sqrt();
-                let step = 0.01 * length / speed;
+                let step = 0.004 * length / speed;
                 let (work, energy, largest) = impact(&mut unit, &inputs, (mass, speed, low - 0.5 * length, step));
                 assert!(work.abs() <= 1e-6 * energy, "{which}: {:e} of the peak energy", work / energy);
                 assert!(largest > 0.02 * loads.1);

@@ -162,7 +162,7 @@ impl Runner<'_, '_> {
             models.push(model);
         }
         if let Some(responses) = reduced.as_ref().and_then(|reduced| reduced.responses) {
-            self.from_responses(&responses, &own.transient, linearised, &mut models)?;
+            self.train_by_responses(&responses, &own.transient, linearised, &mut models)?;
             return Ok(models);
         }
         let training = reduced.as_ref().and_then(ReducedTransient::training);
@@ -204,7 +204,7 @@ impl Runner<'_, '_> {
     }
 
     /// Trains the models of a circular contact around the reference contact of a march.
-    fn from_responses(
+    fn train_by_responses(
         &self,
         training: &ResponseTraining,
         own: &Transient,

@@ -108,8 +108,7 @@ impl Adjoint {
             |z| preconditioner.apply(z, film_column),
             |_| true,
         );
-        // A NaN is not below any limit.
-        if !(outcome.relative_residual < ACCEPTED) {
+        if outcome.relative_residual.is_nan() || outcome.relative_residual >= ACCEPTED {
             return None;
         }
         let zeta = solution.pop()?;
