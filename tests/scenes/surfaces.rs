@@ -130,7 +130,7 @@ fn invalid_surfaces_are_refused_with_their_field() {
         ),
         (LINE, surface(gauss, "").replace("Fixed(0.02)", "Fixed(0.5)"), "a quarter of its length"),
         (LINE, surface(gauss, "").replace("(shape:", "(body: 3, shape:"), "study.surfaces.0.body"),
-        (BALL, "Transient(duration: 1.0, time_step: Fixed(0.1), reduced: (loss: 1e-5))".to_owned(), "`contact`"),
+        (BALL, "Transient(duration: 1.0, time_step: Fixed(0.1), reduced: (loss: 1e-5))".to_owned(), "`responses: ()`"),
         (BALL, "Transient(duration: 1.0, time_step: Fixed(0.1), mass_between: (-1.0, 0.0))".to_owned(), "mass_between"),
         (
             BALL,
