@@ -112,4 +112,4 @@ def test_circular_contacts_are_marched_in_full():
     with pytest.raises(ehl.EhlError, match="constant radius"):
         ehl.transient(ball, duration=2, step=0.05, radius=load)
     with pytest.raises(ehl.EhlError, match="line contacts only"):
-        ehl.transient(ball.replace(method="reduced"), duration=2, step=0.05)
+        ehl.transient(ehl.Contact.moes(20, 6, contact="point", method="reduced"), duration=2, step=0.05)

@@ -13,7 +13,7 @@ use crate::solver::physics::contact::ContactKind;
 const OF_A_MODEL: &str = "a full transient run does not use the grid of a model";
 
 /// Returns the refusal of a scene, with the unsupported field.
-fn refused(why: Unsupported) -> Refused {
+pub(super) fn refused(why: Unsupported) -> Refused {
     let (field, wanted) = match why {
         Unsupported::PointContact => ("contact", "must be Line"),
         Unsupported::PointFrame => ("study.frames", "must be [Fixed], with the scheme Default or Bdf2"),

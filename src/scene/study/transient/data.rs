@@ -9,7 +9,7 @@ use crate::scene::experiment::Experiment;
 use crate::scene::grid::Grid;
 use crate::scene::method::ModelSource;
 use crate::scene::written::is_default;
-use crate::solver::full::transient::{Frame, Inputs, Scheme, Signal, TimeStep, Transient};
+use crate::solver::full::transient::{Frame, Inputs, Scheme, Signal, TimeStep, Transient, Unsupported};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::reduced::tpwl::{Selection, Weighting};
 use crate::solver::training::{LocalBases, ResponseTraining, TrajectoryTraining};
@@ -223,6 +223,10 @@ impl ReducedTransient {
             if *self != (Self { model: self.model.clone(), ..Self::default() }) {
                 let problem = "must be the only field: all other fields belong to a training";
                 return Err(refuse("study.reduced.model", problem));
+            }
+            // The model of the program is one of line contacts.
+            if self.is_embedded() && kind == ContactKind::Point {
+                return Err(coverage::refused(Unsupported::PointContact));
             }
             return Ok(());
         }

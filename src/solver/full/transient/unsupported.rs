@@ -6,8 +6,8 @@ use crate::solver::physics::lubricant::{Cavitation, Lubricant, ShearLaw};
 /// Reason why a contact is not supported, as a sentence. The interfaces add what they accept, in their own terms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Unsupported {
-    /// Point contact.
-    #[error("transient runs cover line contacts only")]
+    /// Point contact, by a method for line contacts.
+    #[error("transient runs by this method cover line contacts only")]
     PointContact,
     /// Frame or scheme that point contacts do not have.
     #[error("transient runs of point contacts use the fixed frame and the scheme Bdf2")]
