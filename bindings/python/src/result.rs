@@ -256,8 +256,9 @@ impl Result {
             word => return Err(refused(format!("paper=\"{word}\" is not valid; accepted are a4, letter"))),
         };
         let title = title.map_or_else(|| format!("{} contact", answer.result.point.kind.name()), str::to_owned);
-        let system = UnitSystem::of_word(units)
-            .ok_or_else(|| refused(format!("units=\"{units}\" is not valid; accepted are si, engineering, imperial")))?;
+        let system = UnitSystem::of_word(units).ok_or_else(|| {
+            refused(format!("units=\"{units}\" is not valid; accepted are si, engineering, imperial"))
+        })?;
         let stated = Stated::of_spec(title, spec, system);
         let stated = Stated { author: author.to_owned(), company: company.to_owned(), ..stated };
         let file = Report::new(&stated, std::slice::from_ref(answer), paper).file(format);
