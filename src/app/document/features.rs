@@ -160,10 +160,8 @@ impl Document {
             (study.inputs.load, study.sampled, study.window) = (Signal::Constant, None, None);
         }
         (study.inputs.speed, study.inputs.radius) = (Signal::Constant, Signal::Constant);
-        (study.reduced, study.linearised, study.frames) = (None, None, vec![Frame::Fixed]);
-        study.trainings.clear();
-        study.training_loads.clear();
-        study.training_contacts.clear();
+        study.frames = vec![Frame::Fixed];
+        study.drop_models();
         study.surfaces.push(feature);
     }
 

@@ -108,10 +108,10 @@ fn of_a_plane(mut study: TransientStudy) -> TransientStudy {
     }
     // A model trained by responses is one of circular contacts.
     if study.reduced.as_ref().is_none_or(|reduced| reduced.responses.is_none()) {
-        (study.reduced, study.linearised) = (None, None);
+        study.drop_models();
     }
     study.mass_between = None;
     (study.frames, study.scheme) = (vec![Frame::Fixed], Scheme::Default);
-    (study.trainings, study.training_loads, study.training_contacts) = (Vec::new(), Vec::new(), Vec::new());
+    study.drop_trainings();
     study
 }

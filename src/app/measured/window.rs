@@ -11,7 +11,7 @@ use crate::app::refusal::Refusal;
 use crate::app::theme::Palette;
 use crate::engine::Warning;
 use crate::scene::study::fit::{FitParameter, Row};
-use crate::scene::{CaseTable, KeptLubricant, MeasuredTable, View, measured_points};
+use crate::scene::{CaseTable, KeptLubricant, MeasuredError, MeasuredTable, View, measured_points};
 use crate::solver::parameters::Estimated;
 use crate::solver::physics::engineering::QuantityKind;
 use egui::{Button, Checkbox, FontId, Grid, ScrollArea, TextEdit, Ui, Window};
@@ -32,6 +32,8 @@ pub struct MeasuredWindow {
     shown: usize,
     /// Text of that table while it is edited; `None` shows the table of the document.
     draft: Option<String>,
+    /// Text that was read last, and what it holds.
+    checked: Option<(String, Result<usize, MeasuredError>)>,
     chosen: [bool; FitParameter::ALL.len()],
     fit: FitRun,
     /// Name of the lubricant to keep.
@@ -44,6 +46,7 @@ impl Default for MeasuredWindow {
             open: false,
             shown: 0,
             draft: None,
+            checked: None,
             chosen: [true, false, false, false],
             fit: FitRun::default(),
             name: "Fitted oil".to_owned(),
@@ -152,15 +155,18 @@ impl MeasuredWindow {
             self.draft = Some(text.clone());
         }
         let opened = self.draft.is_some() && !ui.ctx().memory(|memory| memory.focused().is_some());
-        let points = measured_points(&text);
-        reserved(ui, 2, |ui| match &points {
+        if self.checked.as_ref().is_none_or(|(checked, _)| *checked != text) {
+            self.checked = Some((text.clone(), measured_points(&text).map(|points| points.len())));
+        }
+        let Some((_, points)) = &self.checked else { return };
+        reserved(ui, 2, |ui| match points {
             _ if text.trim().is_empty() => {
                 _ = ui.weak("Speed or SRR, and film thickness or friction; units stand in the titles")
             }
             Err(refused) => message_ui(ui, &refused.to_string()),
-            Ok(points) => {
+            Ok(count) => {
                 let palette = Palette::of(ui);
-                ui.colored_label(palette.verified, format!("{} lines. Traction draws them as diamonds", points.len()));
+                ui.colored_label(palette.verified, format!("{count} lines. Traction draws them as diamonds"));
             }
         });
         let valid = points.is_ok() || text.trim().is_empty();

@@ -11,7 +11,7 @@ use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::{Cavitation, Lubricant};
 use crate::solver::reduced::transient::{ReducedMarch, TrajectoryModel};
 use crate::solver::reduced::{Sampling, Scheme};
-use crate::solver::training::{LocalBases, ResponseTraining, TrajectoryTraining, train_responses, train_trajectories};
+use crate::solver::training::{LocalBases, ResponseBasis, ResponseTraining, TrajectoryTraining, train_trajectories};
 use std::sync::Arc;
 
 fn to_bytes(model: &TrajectoryModel) -> Result<Vec<u8>, ModelFileError> {
@@ -171,7 +171,8 @@ fn a_model_of_a_circular_contact_is_read_as_it_was_written() {
     let grid = PointGridSpec::uniform(0.1, 0.1, (-3.0, 1.8, -1.6)).build().unwrap();
     let training =
         ResponseTraining { load: (0.9, 1.1), speed: (0.9, 1.1), modes: 25, step: 0.02, ..ResponseTraining::default() };
-    let model = Arc::new(train_responses(&grid, point, lubricant, &training, &()).unwrap());
+    let basis = ResponseBasis::new(&grid, point, lubricant, &training, &()).unwrap();
+    let model = Arc::new(basis.reduced(&()).unwrap());
     let bytes = to_bytes(&model).unwrap();
     let read = from_bytes(&bytes).unwrap();
     assert!(to_bytes(&read).unwrap() == bytes);

@@ -47,8 +47,30 @@ pub fn of_sweep(
     let label = (axis.vary.label(), matches!(axis.values, Steps::Log { .. }));
     let solved: Vec<(f64, &Solution)> =
         places.iter().filter_map(|(value, answer)| Some((*value, answer.fields()?))).collect();
-    let film = encoded(solved.len(), observer, |k| frame(&solved, k, label, dark));
+    let ends = Ends::of(&solved);
+    let film = encoded(solved.len(), observer, |k| frame(&solved, k, &ends, label, dark));
     film.map_err(|why| RunError::Study(why.to_string()))
+}
+
+/// Ends of the axes that all frames share: half width \[mm\], central film thickness \[µm\] and maximum pressure
+/// \[GPa\], each the largest of all contacts.
+struct Ends {
+    widest: f64,
+    thickest: f64,
+    highest: f64,
+}
+
+impl Ends {
+    fn of(solved: &[(f64, &Solution)]) -> Self {
+        let most = |of: fn(&Solution, [f64; 3]) -> f64| {
+            solved.iter().map(|(_, solution)| of(solution, units(solution))).fold(0.0, f64::max)
+        };
+        Self {
+            widest: most(|_, [mm, ..]| mm),
+            thickest: most(|solution, [_, um, _]| um * solution.scalars.h_c),
+            highest: most(|solution, [.., gpa]| gpa * solution.scalars.p_max),
+        }
+    }
 }
 
 /// Units of a contact: lengths \[mm\], film thicknesses \[µm\], pressures \[GPa\].
@@ -60,16 +82,12 @@ fn units(solution: &Solution) -> [f64; 3] {
 fn frame(
     solved: &[(f64, &Solution)],
     k: usize,
+    &Ends { widest, thickest, highest }: &Ends,
     (label, log): (&str, bool),
     dark: bool,
 ) -> Result<Drawing, AnimationError> {
     let (value, solution) = *solved.get(k).ok_or(AnimationError::Frames(0))?;
-    let most = |of: &dyn Fn(&Solution, [f64; 3]) -> f64| {
-        solved.iter().map(|(_, solution)| of(solution, units(solution))).fold(0.0, f64::max)
-    };
     let [mm, um, gpa] = units(solution);
-    let (widest, thickest) = (most(&|_, [mm, ..]| mm), most(&|s, [_, um, _]| um * s.scalars.h_c));
-    let highest = most(&|s, [.., gpa]| gpa * s.scalars.p_max);
     let axis = || ChartAxis { ends: Some((widest * ALONG.0, widest * ALONG.1)), ..ChartAxis::linear("{x} in mm") };
     let mut pressure = Chart::new("Pressure", axis(), ChartAxis::linear("{p} in GPa"));
     let mut film = Chart::new("Film thickness", axis(), ChartAxis::linear("{h} in µm"));

@@ -250,14 +250,14 @@ impl Question for Fit {
             given.iter().filter_map(|given| of(&given.point)).fold(0.0, f64::max)
         };
         let floors = [FLOOR * largest(|point| point.film_m), FLOOR * largest(|point| point.friction)];
-        let mut stopped = None;
+        let mut stopped = false;
         let mut rounds = 0;
         let mut residuals = |values: &[f64]| -> Result<Vec<f64>, RunError> {
             rounds += 1;
             let mut residuals = Vec::with_capacity(given.len());
             for given in &given {
                 if let Err(stop) = setting.step("fitting", rounds, 0) {
-                    stopped = Some(());
+                    stopped = true;
                     return Err(stop);
                 }
                 let (_, own, _) = self.solve(setting, &base, given, values)?;
@@ -272,7 +272,7 @@ impl Question for Fit {
             self.parameters.iter().filter_map(|parameter| parameter.of(&base.point, &base.lubricant)).collect();
         let ends: Vec<(f64, f64)> = self.parameters.iter().map(|parameter| parameter.ends()).collect();
         let found = estimate(&start, &ends, &mut residuals);
-        if stopped.is_some() {
+        if stopped {
             return Err(RunError::Cancelled);
         }
         let found = found.map_err(|error| self.refusal(error))?;

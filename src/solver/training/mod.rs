@@ -63,7 +63,7 @@ pub use local_bases::LocalBases;
 pub use observer::TrainingObserver;
 pub use one_thread::on_one_thread;
 pub use plan::{random_points, random_points_while};
-pub use responses::{ResponseBasis, ResponseTraining, train_responses};
+pub use responses::{ResponseBasis, ResponseTraining};
 pub use rows::with_rows;
 pub use search::{BadPoint, Search};
 pub use spec::{EVIDENCE, Indicator, Plan, TrainingSpec, WindowSpec, Windows};

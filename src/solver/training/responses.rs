@@ -1,4 +1,4 @@
-//! Training of a transient reduced model of a circular contact in the frequency domain, without a full march.
+//! Training of a transient reduced model of a circular contact in the frequency domain, with one full march.
 //!
 //! 1. Steady contacts at loads and speeds across the range, and their linear responses to both at some frequencies.
 //!    Their decomposition gives the basis.
@@ -88,12 +88,11 @@ const COVERED: &str = "a transient reduced model covers circular contacts whose 
                        equal radii and a refinement of the grid of at least 1";
 
 /// Steady contact with its share of the snapshots, one per column.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-pub(crate) struct Steady {
-    pub input: Input,
-    pub pressure: Vec<f64>,
-    pub h_0: f64,
-    pub responses: Vec<Vec<f64>>,
+struct Steady {
+    input: Input,
+    pressure: Vec<f64>,
+    h_0: f64,
+    responses: Vec<Vec<f64>>,
 }
 
 /// Basis and test functions of a circular contact, with the march that sweeps the range. Reduced and linearised models
@@ -155,20 +154,6 @@ impl ResponseBasis {
         let (values, training) = (window.pressure.singular_values().to_vec(), TpwlTraining { modes, selection });
         TpwlModel::train_in(space, values, &[&self.swept], training)
     }
-}
-
-/// Trains a reduced model of loads and speeds around a circular contact, in the fixed frame.
-///
-/// # Errors
-/// As [`ResponseBasis::new`] and [`ResponseBasis::reduced`].
-pub fn train_responses(
-    grid: &Arc<PointGrid>,
-    point: OperatingPoint,
-    lubricant: Lubricant,
-    training: &ResponseTraining,
-    observer: &dyn Observer,
-) -> Result<TrajectoryModel, TrainingError> {
-    ResponseBasis::new(grid, point, lubricant, training, observer)?.reduced(observer)
 }
 
 impl ResponseTraining {
@@ -254,7 +239,7 @@ fn conditions(problem: &Problem, input: Input) -> Result<Conditions, TrainingErr
 }
 
 /// Solves the steady contacts and their responses, each scaled by half the range of its input.
-pub(crate) fn steady(
+fn steady(
     grid: &Arc<PointGrid>,
     own: &Transient,
     problem: &Problem,
@@ -289,7 +274,7 @@ pub(crate) fn steady(
 }
 
 /// Marches the full system along loads and speeds that sweep the range.
-pub(crate) fn swept(
+fn swept(
     grid: &Arc<PointGrid>,
     own: &Transient,
     training: &ResponseTraining,
@@ -311,7 +296,7 @@ fn finished(trajectory: Trajectory) -> Result<Trajectory, TrainingError> {
 }
 
 /// Builds the model with all rows.
-pub(crate) fn exact(
+fn exact(
     grid: &Arc<PointGrid>,
     own: &Transient,
     problem: &Problem,
@@ -418,7 +403,7 @@ fn test_space(
 }
 
 /// Samples the equations by the steps of the model with all rows along swept loads and speeds.
-pub(crate) fn sampled(
+fn sampled(
     exact: &Arc<TrajectoryModel>,
     own: &Transient,
     training: &ResponseTraining,
@@ -426,12 +411,13 @@ pub(crate) fn sampled(
 ) -> Result<SampledRows, TrainingError> {
     let swept = training.swept(own);
     let window = &exact.window;
-    let weights: Vec<f64> = (0..window.grid.unknowns()).map(|k| window.grid.weights()[window.grid.node(k)]).collect();
     let modes = window.reconstruction.nrows();
+    let own_space = TestSpace::new(window.pressure.basis(), &window.grid);
+    let weights = own_space.weights.clone();
     let functions = Mat::from_fn(weights.len(), modes, |row, mode| window.reconstruction[(mode, row)] / weights[row]);
     let test = TestSpace { modes: functions, weights };
     // Candidates are the rows at whose nodes the modes matter, whatever the size of the test functions there.
-    let mut goals = GoalEquations::over(&TestSpace::new(window.pressure.basis(), &window.grid));
+    let mut goals = GoalEquations::over(&own_space);
     let every = (3 * STEPS).div_ceil(ITERATES).max(1);
     let mut rng = Rng::with_seed(training.seed);
     let mut seen = 0;

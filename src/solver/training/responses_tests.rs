@@ -1,7 +1,7 @@
 //! Tests of transient reduced models of circular contacts against full marches, and of what they refuse.
 
 use super::small::Made;
-use super::{ResponseBasis, ResponseTraining, TrainingError, train_responses};
+use super::{ResponseBasis, ResponseTraining, TrainingError};
 use crate::solver::discrete::grid::{PointGrid, PointGridSpec};
 use crate::solver::discrete::space::PlaneSpace;
 use crate::solver::full::transient::{FullMarch, Inputs, Keep, Quantity, Signal, Trajectory, Transient, march};
@@ -41,9 +41,18 @@ fn grid() -> Arc<PointGrid> {
     PointGridSpec::uniform(0.1, 0.1, (-3.0, 1.8, -1.6)).build().unwrap()
 }
 
+/// Trains the reduced model of a contact.
+fn train(
+    point: OperatingPoint,
+    training: &ResponseTraining,
+    observer: &dyn Observer,
+) -> Result<TrajectoryModel, TrainingError> {
+    ResponseBasis::new(&grid(), point, lubricant(), training, observer)?.reduced(observer)
+}
+
 fn trained() -> Arc<TrajectoryModel> {
     static MODELS: Made<TrajectoryModel> = Made::new();
-    MODELS.of(&(), || train_responses(&grid(), BALL, lubricant(), &TRAINING, &()).unwrap())
+    MODELS.of(&(), || train(BALL, &TRAINING, &()).unwrap())
 }
 
 fn harmonic(amplitude: f64, period: f64) -> Signal {
@@ -118,7 +127,7 @@ fn a_linearised_model_in_the_same_basis_follows_a_full_march_roughly() {
 #[test]
 fn training_is_reproducible_and_can_be_cancelled() {
     let model = trained();
-    let again = train_responses(&grid(), BALL, lubricant(), &TRAINING, &()).unwrap();
+    let again = train(BALL, &TRAINING, &()).unwrap();
     assert_eq!(model.window.sampled_rows, again.window.sampled_rows);
     struct Stops(AtomicBool);
     impl Observer for Stops {
@@ -130,14 +139,13 @@ fn training_is_reproducible_and_can_be_cancelled() {
         }
     }
     let stops = Stops(AtomicBool::new(false));
-    assert!(matches!(train_responses(&grid(), BALL, lubricant(), &TRAINING, &stops), Err(TrainingError::Cancelled)));
+    assert!(matches!(train(BALL, &TRAINING, &stops), Err(TrainingError::Cancelled)));
 }
 
 #[test]
 fn settings_and_contacts_that_are_not_covered_are_refused() {
-    let refused = |point: OperatingPoint, training: ResponseTraining| {
-        train_responses(&grid(), point, lubricant(), &training, &()).unwrap_err().to_string()
-    };
+    let refused =
+        |point: OperatingPoint, training: ResponseTraining| train(point, &training, &()).unwrap_err().to_string();
     let ellipse = OperatingPoint { radius_y_m: Some(0.02), ..BALL };
     assert!(refused(ellipse, TRAINING).contains("circular contacts"));
     for (training, word) in [

@@ -1,5 +1,6 @@
 //! Traction and film thickness along one quantity, and the laws of the fluid.
 
+mod axes;
 mod chart;
 mod curve;
 pub mod export;

@@ -1,7 +1,8 @@
 //! Traction tab: traction and film thickness along one quantity, live by the reduced model, and the laws of the
 //! fluid.
 
-use super::chart::{self, NEAR_SRR};
+use super::axes::NEAR_SRR;
+use super::chart;
 use super::fluid;
 use super::sweeps::edit_along;
 use crate::app::answers::Answers;

@@ -148,9 +148,7 @@ pub fn trainings_ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStudy
             }
         }
         if !own && ui.button("On the run itself").on_hover_text("Discards the other inputs").clicked() {
-            study.trainings.clear();
-            study.training_loads.clear();
-            study.training_contacts.clear();
+            study.drop_trainings();
             form.changed = Some("Methods");
         }
     });

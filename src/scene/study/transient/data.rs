@@ -334,6 +334,19 @@ impl TransientStudy {
         }
     }
 
+    /// Removes the trainings of the models, so that they are trained on the study's own inputs.
+    pub fn drop_trainings(&mut self) {
+        self.trainings.clear();
+        self.training_loads.clear();
+        self.training_contacts.clear();
+    }
+
+    /// Removes the models and their trainings.
+    pub fn drop_models(&mut self) {
+        (self.reduced, self.linearised) = (None, None);
+        self.drop_trainings();
+    }
+
     /// Refuses values that are not finite or out of range, and names the field.
     ///
     /// # Errors

@@ -326,6 +326,15 @@ fn column_by_column<S: Default + Send>(
     Mat::from_fn(n, columns.ncols(), |i, j| done[j][i])
 }
 
+/// Adds the undeformed gap H₀ + X²/(2R̄) + Y²/2 to a node array, such as a deformation. `curvature` is 1/R̄.
+pub(crate) fn add_gap(film: &mut [f64], (x, y): (&[f64], &[f64]), h_0: f64, curvature: f64) {
+    for (column, x) in film.chunks_exact_mut(y.len()).zip(x) {
+        for (film, y) in column.iter_mut().zip(y) {
+            *film += h_0 + 0.5 * (curvature * x * x + y * y);
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

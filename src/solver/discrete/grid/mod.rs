@@ -8,6 +8,7 @@ mod interpolation;
 pub mod line;
 pub mod point;
 
+pub(crate) use contact::add_gap;
 pub use contact::{ContactGrid, GridSpec};
 pub use error::{GridError, MAX_BYTES};
 pub use fitting::that_would_do;

@@ -2,7 +2,7 @@
 
 use super::grid::SpaceGrid;
 use super::linearisation::PENALTY_SLOPE;
-use crate::solver::discrete::grid::{FIRST_UNKNOWN, LineGrid};
+use crate::solver::discrete::grid::{FIRST_UNKNOWN, LineGrid, add_gap};
 use crate::solver::full::transient::{Input, State};
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::{PodBasis, dense, matrix_values};
@@ -109,11 +109,7 @@ impl ReducedSpace {
 
 /// Adds H₀ + X²/(2R̄) + Y²/2 to a deformation.
 fn add_shape(film: &mut [f64], grid: &SpaceGrid, h_0: f64, input: Input) {
-    let curvature = 1.0 / input.radius;
-    for (node, h) in film.iter_mut().enumerate() {
-        let (x, y) = grid.place(node);
-        *h += h_0 + 0.5 * (curvature * x * x + y * y);
-    }
+    add_gap(film, grid.abscissae(), h_0, 1.0 / input.radius);
 }
 
 /// Returns true if two contacts differ only in their load.

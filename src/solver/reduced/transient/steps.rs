@@ -5,7 +5,7 @@ use super::model::{TrajectoryModel, TrajectoryStart};
 use super::nearest::Nearest;
 use super::part::Part;
 use crate::solver::discrete::elasticity::{PointScratch, Scratch};
-use crate::solver::discrete::grid::{ContactGrid, dot};
+use crate::solver::discrete::grid::{ContactGrid, add_gap, dot};
 use crate::solver::full::transient::{
     Conditions, Effort, Frame, History, Input, Marching, Moment, Signal, State, Step, Transient,
 };
@@ -307,10 +307,7 @@ impl<'a> ReducedMarch<'a> {
                 ContactGrid::Point(grid) => grid.deform(pressure, film, &mut PointScratch::default()),
             }
         }
-        for (node, film) in film.iter_mut().enumerate() {
-            let (x, y) = self.grid.place(node);
-            *film += h_0 + 0.5 * (at.curvature * x * x + y * y);
-        }
+        add_gap(film, self.grid.abscissae(), h_0, at.curvature);
     }
 }
 
