@@ -6,7 +6,6 @@ use ehl_explorer::engine::arrays::Array;
 use ehl_explorer::engine::{self, EngineError, SavedModel, model_arrays, model_file, model_snapshots, model_text};
 use ehl_explorer::scene::Scene;
 use ehl_explorer::solver::parameters::Quantity;
-use ehl_explorer::solver::physics::contact::ContactKind;
 use ehl_explorer::solver::reduced::ReducedModel;
 use ehl_explorer::solver::training::train;
 use pyo3::prelude::*;
@@ -40,7 +39,12 @@ impl Model {
         Self { model, name: None, content: content.map(Arc::new).map(OnceLock::from).unwrap_or_default() }
     }
 
-    fn of_program(py: Python<'_>, name: &'static str) -> PyResult<Self> {
+    fn of_program(py: Python<'_>, name: &str) -> PyResult<Self> {
+        let names = || engine::catalogue().iter().map(|entry| entry.name);
+        let Some(name) = names().find(|known| *known == name) else {
+            let accepted = names().collect::<Vec<_>>().join(", ");
+            return Err(refused(format!("the program has no model `{name}`; accepted are {accepted}")));
+        };
         let model = py.detach(|| engine::embedded(name)).map_err(refused)?;
         Ok(Self { model, name: Some(name), content: OnceLock::new() })
     }
@@ -78,9 +82,7 @@ pub fn _model(py: Python<'_>, kept: &Bound<'_, PyAny>) -> PyResult<Model> {
         kept.push_front(model.clone());
         return Ok(model);
     }
-    let name: String = kept.extract()?;
-    let known = engine::catalogue().iter().find(|entry| entry.name == name);
-    Model::of_program(py, known.ok_or_else(|| refused(format!("the program has no model `{name}`")))?.name)
+    Model::of_program(py, &kept.extract::<String>()?)
 }
 
 fn by_name(py: Python<'_>, arrays: Vec<Array>) -> PyResult<Bound<'_, PyDict>> {
@@ -115,27 +117,11 @@ impl Model {
         Ok(Self::own(model, Some(content)))
     }
 
-    /// Returns an embedded model for ``"line"`` or (circular) ``"point"`` contacts, with or without shear thinning.
-    /// Models without shear thinning also exist for thermal contacts.
+    /// Returns a model of the program by its name, such as ``"line"``, ``"point"`` or ``"line_heat"``. The manual lists
+    /// them; another name is refused with all that are accepted.
     #[staticmethod]
-    #[pyo3(signature = (contact="line", thinning=false, heat=false))]
-    fn embedded(py: Python<'_>, contact: &str, thinning: bool, heat: bool) -> PyResult<Self> {
-        let kind = match contact {
-            "line" => ContactKind::Line,
-            "point" => ContactKind::Point,
-            _ => return Err(refused(format!("`{contact}` is no contact; accepted are line, point"))),
-        };
-        let name = match (kind, thinning, heat) {
-            (ContactKind::Line, false, false) => "line",
-            (ContactKind::Line, true, false) => "line_shear",
-            (ContactKind::Point, false, false) => "point",
-            (ContactKind::Point, true, false) => "point_shear",
-            (ContactKind::Line, false, true) => "line_heat",
-            (ContactKind::Point, false, true) => "point_heat",
-            (_, true, true) => {
-                return Err(refused("thermal models are available without shear-thinning only".to_owned()));
-            }
-        };
+    #[pyo3(signature = (name="line"))]
+    fn embedded(py: Python<'_>, name: &str) -> PyResult<Self> {
         Self::of_program(py, name)
     }
 

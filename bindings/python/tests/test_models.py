@@ -1,9 +1,13 @@
 """Reduced models: loading, training, saving, description."""
 
+import re
+
 import numpy as np
 import pytest
 
 import ehl_explorer as ehl
+
+from conftest import ROOT
 
 
 def test_a_model_is_the_same_in_memory_in_a_file_and_in_the_program(tmp_path):
@@ -42,12 +46,19 @@ def test_training_tells_how_far_it_is_and_gives_the_model_of_the_command_line(sm
 
 
 def test_the_model_with_heat_is_one_of_the_program():
-    model = ehl.Model.embedded("line", heat=True)
+    model = ehl.Model.embedded("line_heat")
     options = dict(modulus=231e9, viscosity=0.01, alpha=1.4520113272322256e-8, lubricant="mineral-oil", srr=0.2, heat=True)
     contact = ehl.Contact.si(3e-3, 2.0, 2e5, **options)
     found = ehl.solve(contact, method="reduced")
     assert found.H_c == ehl.solve(contact, model=model).H_c
     assert abs(found.H_c / ehl.solve(contact).H_c - 1) < 3e-3
-    assert ehl.Model.embedded("point", heat=True)
-    with pytest.raises(ValueError, match="without shear-thinning"):
-        ehl.Model.embedded("point", thinning=True, heat=True)
+
+
+def test_every_model_of_the_manual_is_one_of_the_program():
+    page = (ROOT / "assets" / "manual" / "models.md").read_text()
+    named = set(re.findall(r"`((?:line|point|ellipse)\w*)`", page)) - {"line_in_time"}
+    with pytest.raises(ehl.EhlError, match="no model `cube`; accepted are ") as refused:
+        ehl.Model.embedded("cube")
+    assert named == set(str(refused.value).split("accepted are ")[1].split(", "))
+    for name in named:
+        assert ehl.Model.embedded(name).contact == name.split("_")[0].replace("ellipse", "point"), name

@@ -25,7 +25,7 @@ PATIENCE = 120
 MODELS = {
     "line": lambda: ehl.Model.embedded("line"),
     "point": lambda: ehl.Model.embedded("point"),
-    "sheared": lambda: ehl.Model.embedded("line", thinning=True),
+    "sheared": lambda: ehl.Model.embedded("line_shear"),
 }
 WRONG = [
     float("nan"), float("inf"), -float("inf"), -1, 0, 1e300, "", "many", "12 kg", "NaN", "\0", "ü" * 300, None, True, [],
