@@ -302,11 +302,11 @@ impl Quantity {
             Self::NewtonianPlateauRatio => return point.sliding.newtonian_plateau_ratio,
             Self::HertzPressure => point.hertz().pressure_pa,
             Self::RoelandsExponent => roelands_exponent(point),
-            Self::FilmThickness => expected_film(point.kind, point.moes()),
+            Self::FilmThickness => expected_film(point),
             Self::SmoothFilmRatio => smooth_film_m(point) / REFERENCE_ROUGHNESS_M,
             Self::SlidingSpeed => (point.sliding.slide_to_roll_ratio * point.speed_m_per_s).abs(),
             Self::StressUnit => point.gradient_stress_pa(),
-            Self::GradientStress => point.gradient_stress_pa() * expected_film(point.kind, point.moes()),
+            Self::GradientStress => point.gradient_stress_pa() * expected_film(point),
             Self::EyringStress
             | Self::InletTemperature
             | Self::ViscosityTemperature
@@ -373,7 +373,7 @@ impl Quantity {
 
 /// Returns the central film thickness \[m\] of the smooth contact by Moes' formula.
 fn smooth_film_m(point: &OperatingPoint) -> f64 {
-    expected_film(point.kind, point.moes()) * point.film_scale_m()
+    expected_film(point) * point.film_scale_m()
 }
 
 /// Returns the contact with all lengths multiplied by a factor. M, L and p_H are the same.

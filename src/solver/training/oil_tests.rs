@@ -92,7 +92,7 @@ fn the_expected_film_is_moes_formula_in_the_solvers_units() {
         let point = si_from_moes(&MoesRequest::new(kind, m, l)).unwrap();
         let two_u = 2.0 * point.viscosity_pa_s * point.speed_m_per_s / (point.modulus_pa * point.radius_m);
         let film_m = moes_film(kind, point.moes()) * point.radius_m * two_u.sqrt();
-        let expected = expected_film(kind, point.moes()) * point.film_scale_m();
+        let expected = expected_film(&point) * point.film_scale_m();
         assert!((expected / film_m - 1.0).abs() < 1e-9, "{kind:?}: {expected:e} {film_m:e}");
     }
 }
@@ -105,7 +105,7 @@ fn point_models_share_a_basis_and_state_their_grid_error() {
     assert!(shared.len() == 2 && Arc::ptr_eq(shared[0], shared[1]) && shared[0].basis.modes.ncols() == 50);
     let mut full = ContactSolver::on(&model.windows[0].grid);
     for point in random_points(&spec.range, spec.contact(), 20, 77) {
-        assert!(expected_film(ContactKind::Point, point.moes()) >= 0.16);
+        assert!(expected_film(&point) >= 0.16);
         online.forget();
         let solved = online.solve(&point, spec.lubricant).unwrap();
         assert_eq!(solved.trust, Trust::Trained);

@@ -73,17 +73,24 @@ impl View for Basis {
     }
 
     fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
-        if let Some(model) = self.in_time.model(context) {
-            ui.horizontal(|ui| {
-                let tip = "Reduced model of the contact on the left";
-                ui.selectable_value(&mut self.in_time.chosen, false, "Model of the contact").on_hover_text(tip);
-                let tip = "Transient reduced model: the one that was opened, or that of the run on the screen";
-                ui.selectable_value(&mut self.in_time.chosen, true, "Transient model").on_hover_text(tip);
-            });
-            if self.in_time.chosen {
-                self.in_time.ui(ui, &model, context.fit);
-                return;
+        let in_time = self.in_time.model(context);
+        // The row is there also without a transient model, so that nothing moves when a run gets one.
+        ui.horizontal(|ui| {
+            let chosen = self.in_time.chosen && in_time.is_some();
+            let tip = "Reduced model of the contact on the left";
+            if ui.selectable_label(!chosen, "Model of the contact").on_hover_text(tip).clicked() {
+                self.in_time.chosen = false;
             }
+            let tip = "Transient reduced model: the one that was opened, or that of the run on the screen";
+            let label = egui::Button::selectable(chosen, "Transient model");
+            let none = "Open a transient model, or run one in Transient";
+            if ui.add_enabled(in_time.is_some(), label).on_hover_text(tip).on_disabled_hover_text(none).clicked() {
+                self.in_time.chosen = true;
+            }
+        });
+        if let Some(model) = in_time.filter(|_| self.in_time.chosen) {
+            self.in_time.ui(ui, &model, context.fit);
+            return;
         }
         let Some(model) = context.answers.model(context.document).cloned() else {
             ui.centered_and_justified(|ui| {

@@ -1,7 +1,8 @@
 //! The four asymptotes of the film thickness, and formulas that join them: Moes' for line contacts, and that of
 //! Nijenbanning, Venner and Moes for elliptical contacts.
 
-use super::{ContactKind, Moes, OperatingPoint};
+use super::{ContactKind, Ellipse, Moes, OperatingPoint};
+use std::f64::consts::PI;
 
 /// The four asymptotes of a film number H = (h/R)(2U)^(−1/2), as joined by the formulas of Moes and of Nijenbanning,
 /// Venner and Moes.
@@ -111,20 +112,23 @@ pub fn ellipse_film(radius_ratio: f64, moes: Moes) -> f64 {
     (iso.powf(2.0 * s / 3.0) + piezo.powf(-s / 8.0)).powf(1.0 / s)
 }
 
-/// Returns the central film thickness H_c in units of a²/R that Moes' formula gives for M and L.
-pub fn expected_film(kind: ContactKind, moes: Moes) -> f64 {
-    let film = moes_film(kind, moes);
-    match kind {
-        // (a/R)² = (8/π) M √(2U) of a line contact, (3M/2)^⅔ √(2U) of a circular contact, and h/R = Ĥ √(2U).
-        ContactKind::Line => film * std::f64::consts::PI / (8.0 * moes.m),
-        ContactKind::Point => film * (1.5 * moes.m).powf(-2.0 / 3.0),
+/// Returns the central film thickness H_c in units of a²/R by the formula for a contact's shape: [`moes_film`] or
+/// [`ellipse_film`].
+pub fn expected_film(point: &OperatingPoint) -> f64 {
+    let moes = point.moes();
+    let film = FilmShape::of(point).film(moes);
+    match point.kind {
+        // (a/R)² = (8/π) M √(2U) of a line contact, and h/R = Ĥ √(2U).
+        ContactKind::Line => film * PI / (8.0 * moes.m),
+        // (a/R)³ = (3J_x/π) M (2U)^¾ of an elliptical contact, where J_x = π/2 for a circular one.
+        ContactKind::Point if point.ellipse() == Ellipse::CIRCLE => film * (1.5 * moes.m).powf(-2.0 / 3.0),
+        ContactKind::Point => film * (3.0 * point.ellipse().integral * moes.m / PI).powf(-2.0 / 3.0),
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::f64::consts::PI;
 
     #[test]
     fn moes_formula_tends_to_its_asymptotes() {
@@ -134,6 +138,16 @@ mod tests {
         assert!((elastic_piezo / (1.311 * 1e5f64.powf(-0.125) * 1e3f64.powf(0.75)) - 1.0).abs() < 2e-2);
         let rigid_iso = moes_film(ContactKind::Line, Moes { m: 1e-3, l: 1e-9 });
         assert!((rigid_iso / 3e3 - 1.0).abs() < 1e-3);
+    }
+
+    #[test]
+    fn the_expected_film_has_the_unit_of_the_solver() {
+        let ball = OperatingPoint { kind: ContactKind::Point, load: 50.0, radius_m: 0.01, ..OperatingPoint::TABLE_2_1 };
+        let ellipse = |ratio: f64| OperatingPoint { radius_y_m: Some(ratio * ball.radius_m), ..ball };
+        for point in [OperatingPoint::TABLE_2_1, ball, ellipse(0.5), ellipse(8.0), ellipse(200.0)] {
+            let ratio = expected_film(&point) * point.film_scale_m() / point.formula_film_m();
+            assert!((ratio - 1.0).abs() < 1e-9, "{point:?}: {ratio}");
+        }
     }
 
     #[test]

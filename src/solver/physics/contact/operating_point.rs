@@ -310,8 +310,7 @@ mod tests {
             close(moved.formula_film_m(), film, 1e-9);
             assert_eq!(OperatingPoint { speed_m_per_s: contact.speed_m_per_s, ..moved }, contact);
         }
-        let moes = OperatingPoint::TABLE_2_1.moes();
-        let expected = crate::solver::physics::contact::expected_film(ContactKind::Line, moes);
+        let expected = crate::solver::physics::contact::expected_film(&OperatingPoint::TABLE_2_1);
         close(OperatingPoint::TABLE_2_1.formula_film_m() / OperatingPoint::TABLE_2_1.film_scale_m(), expected, 1e-9);
     }
 
