@@ -38,7 +38,7 @@ const first = ["index.html", "style.css", "icon.svg", "start.js", "lanes.js", "f
 const sizes = {};
 for (const file of readdirSync(out)) {
   const content = readFileSync(join(out, file));
-  const params = { [constants.BROTLI_PARAM_QUALITY]: 11, [constants.BROTLI_PARAM_LGWIN]: 22, [constants.BROTLI_PARAM_SIZE_HINT]: content.length };
+  const params = { [constants.BROTLI_PARAM_QUALITY]: 11, [constants.BROTLI_PARAM_LGWIN]: 24, [constants.BROTLI_PARAM_SIZE_HINT]: content.length };
   const br = brotliCompressSync(content, { params });
   const gz = gzipSync(content, { level: 9 });
   writeFileSync(join(out, `${file}.br`), br);

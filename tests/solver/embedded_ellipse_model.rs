@@ -9,9 +9,9 @@ use ehl_explorer::solver::reduced::{Online, ReducedOptions, Trust};
 use ehl_explorer::solver::training::random_points;
 
 fn points(count: usize, seed: u64) -> Vec<OperatingPoint> {
-    let axes = [(Quantity::M, (10.0, 300.0)), (Quantity::L, (2.0, 12.0)), (Quantity::RadiusRatio, (0.5, 8.0))];
+    let axes = [(Quantity::M, (10.0, 10_000.0)), (Quantity::L, (2.0, 12.0)), (Quantity::RadiusRatio, (0.5, 200.0))];
     let range = ParameterSpace::of(axes.map(|(quantity, ends)| Axis::new(quantity, ends)))
-        .limited([(Quantity::HertzPressure, (0.0, 3.2e9))]);
+        .limited([(Quantity::HertzPressure, (0.0, 2.2e9)), (Quantity::FilmThickness, (0.02, 0.6))]);
     random_points(&range, ContactKind::Point, count, seed)
 }
 

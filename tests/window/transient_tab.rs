@@ -247,6 +247,14 @@ fn what_has_not_come_to_a_moment_is_not_drawn_there() {
 #[test]
 fn transient_model_is_trained_and_compared() {
     let (mut harness, folder) = open("reduced", &scene(BREATHING, 2.0, "Fixed"));
+    let basis = |harness: &mut Window| {
+        click(harness, "Reduced basis");
+        let offered = !harness.get_by_label("Transient model").accesskit_node().is_disabled();
+        (offered, harness.get_by_label("Model of the contact").rect())
+    };
+    let (offered, before) = basis(&mut harness);
+    assert!(!offered);
+    click(&mut harness, "Transient");
     click(&mut harness, "Set-up");
     click(&mut harness, "Reduced model");
     run_in_time(&mut harness);
@@ -261,6 +269,8 @@ fn transient_model_is_trained_and_compared() {
     press(&mut harness, Modifiers::COMMAND, Key::S);
     let Study::Transient(study) = Scene::read(&folder.join("scene.ron")).unwrap().study else { panic!() };
     assert_eq!(study.reduced.map(|reduced| reduced.loss), Some(1e-6));
+    // Its bases are offered beside those of the contact. The choice was there before, so that nothing moves.
+    assert_eq!(basis(&mut harness), (true, before));
 }
 
 #[test]
