@@ -1,4 +1,5 @@
 use crate::solver::discrete::grid::GridSpec;
+use crate::solver::full::heat::Rises;
 use crate::solver::full::newton_space::NewtonSpace;
 use crate::solver::full::solver::Solver;
 use crate::solver::full::{FullSolver, Problem, Solution, Start};
@@ -114,6 +115,36 @@ fn solutions_do_not_depend_on_start_or_order_of_bodies() {
     assert!((cold.traction_coefficient() + other.traction_coefficient()).abs() < 1e-6);
     // Glass conducts heat badly.
     assert!(a.central.surfaces_k[0] > 2.0 * a.central.surfaces_k[1]);
+}
+
+/// The needle follows the grid, the film does not: it is the reason why both are reported apart.
+#[test]
+fn rises_in_the_pressure_spike_are_reported_apart() {
+    for (name, point) in [
+        ("0.5", point(0.5)),
+        ("ref", OperatingPoint { speed_m_per_s: 4.0, ..point(1.0) }),
+        ("slow", OperatingPoint { load: 1e5, alpha_per_pa: 2.5e-8, ..point(0.3) }),
+    ] {
+        for nodes in [401, 695, 1201] {
+            let grid = GridSpec::Graded { nodes, domain: (-10.0, 2.0), registered: false };
+            let found = solved(&mut FullSolver::new(grid).unwrap(), &point, warm(EYRING, Heat::default()));
+            let heat = found.heat.as_ref().unwrap();
+            println!(
+                "{name} {nodes}: central {:?} outside {:?} spike {:?} {:?}",
+                heat.central,
+                heat.outside_spike,
+                heat.in_spike,
+                found.spike()
+            );
+            let p = found.profile().map(|(x, p, _)| (x, p));
+            if nodes == 695 {
+                for ((x, p), rise) in p.zip(heat.along_axis().map(Rises::of)).filter(|((x, _), _)| *x > 0.5 && *x < 1.2)
+                {
+                    println!("  {x:.4} {p:.4} {:.3} {:.3}", rise.mid_film_k, rise.surfaces_k[0]);
+                }
+            }
+        }
+    }
 }
 
 #[test]
