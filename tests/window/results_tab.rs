@@ -208,7 +208,7 @@ fn results_have_the_verdicts_of_transient_runs() {
         assert!(!harness.state().running_study());
         // The numbers are those of a run without the window.
         let headless = Scene::read(&path).unwrap();
-        let headless = run_scene(&headless, &mut Workbench::new(&folder), &()).unwrap();
+        let headless = run_scene(&headless, &mut Workbench::new(&*folder), &()).unwrap();
         let table = headless.tables.first().unwrap();
         let shown = harness.state().result_table(&table.name).unwrap();
         assert_eq!(timeless(&table.to_csv()), timeless(&shown), "{name}");
