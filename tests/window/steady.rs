@@ -2,7 +2,7 @@
 //! behind, and tooltips are small and beside their control.
 
 use crate::common::scratch::Scratch;
-use crate::driver::{CONTROLS, TABS, Window, click, press, shows, window, write};
+use crate::driver::{CONTROLS, TABS, Window, click, press, shows, wait, window, write};
 use egui::accesskit::Role;
 use egui::{Id, Key, Modifiers, Order, Pos2, Rect, Theme};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -16,7 +16,7 @@ const FARTHEST: f32 = 10.0;
 
 fn open(size: [f32; 2]) -> Window {
     let mut harness = window(Explorer::with_embedded_models().without_system_dialogs(), size);
-    harness.run_steps(3);
+    wait(&mut harness, "the first picture", |app| app.central_film().is_some() && !app.busy());
     harness
 }
 
@@ -86,7 +86,7 @@ fn buttons_stay_while_tables_and_links_are_typed() {
         click(&mut harness, "Load cases…");
         let lines = format!("radius [mm]; speed; load\n{}", "12; 3 m/s; 300 km\n".repeat(30));
         let texts = [
-            ("radius [mm]", "no line"),
+            ("radius [mm]", "0 contacts can be solved"),
             ("radius [mm]; speed; load\n12; 3 m/s; 300 N/mm\n", "1 contacts can be solved"),
             (&lines, "30 lines are refused"),
             ("wheel\n1", "is unknown"),
@@ -128,7 +128,7 @@ fn click_at(harness: &mut Window, place: Pos2) {
 #[test]
 fn a_click_after_escape_chooses_nothing() {
     let mut harness = open([1280.0, 800.0]);
-    let laws = harness.state().lubricant();
+    let viscosity = harness.state().lubricant().viscosity;
     harness.get_by_role_and_label(Role::ComboBox, "Fluid").click();
     harness.run_steps(3);
     let place = harness.get_by_label("Barus oil").rect().center();
@@ -137,7 +137,9 @@ fn a_click_after_escape_chooses_nothing() {
     press(&mut harness, ESCAPE.0, ESCAPE.1);
     assert!(harness.query_by_label("Barus oil").is_none());
     click_at(&mut harness, place);
-    assert_eq!(harness.state().lubricant(), laws);
+    assert_eq!(harness.state().lubricant().viscosity, viscosity);
+    // What lies below the list may have opened another one.
+    press(&mut harness, ESCAPE.0, ESCAPE.1);
     // Also if the button goes down on the option and up after Escape.
     harness.get_by_role_and_label(Role::ComboBox, "Fluid").click();
     harness.run_steps(3);
@@ -147,12 +149,14 @@ fn a_click_after_escape_chooses_nothing() {
     harness.drop_at(place);
     harness.run_steps(3);
     assert!(harness.query_by_label("Barus oil").is_none());
-    assert_eq!(harness.state().lubricant(), laws);
+    assert_eq!(harness.state().lubricant().viscosity, viscosity);
+    // What lies below the list may have opened another one.
+    press(&mut harness, ESCAPE.0, ESCAPE.1);
     // Without Escape the same click chooses.
     harness.get_by_role_and_label(Role::ComboBox, "Fluid").click();
     harness.run_steps(3);
     click_at(&mut harness, place);
-    assert_ne!(harness.state().lubricant(), laws);
+    assert_ne!(harness.state().lubricant().viscosity, viscosity);
     for (escape, wanted) in [(true, Theme::Dark), (false, Theme::Light)] {
         harness.ctx.set_theme(Theme::Dark);
         harness.run_steps(2);
@@ -212,13 +216,19 @@ fn tooltips_are_small_and_beside_their_control() {
         let mut harness = open(size);
         let screen = Rect::from_min_size(Pos2::ZERO, size.into());
         let (mut wrong, mut seen) = (Vec::new(), 0);
+        let mut known: Vec<(String, Rect)> = Vec::new();
         for tab in TABS {
             click(&mut harness, tab);
             let mut controls: Vec<(String, Rect)> = Vec::new();
             for role in CONTROLS {
                 for node in harness.query_all_by_role(role) {
                     let name = node.accesskit_node().label().unwrap_or_default();
-                    controls.push((name, node.rect()));
+                    // Controls of the panels are looked at once.
+                    let control = (name, node.rect());
+                    if !known.contains(&control) {
+                        known.push(control.clone());
+                        controls.push(control);
+                    }
                 }
             }
             for (name, place) in controls.into_iter().filter(|(_, place)| screen.contains_rect(*place)) {
@@ -242,6 +252,6 @@ fn tooltips_are_small_and_beside_their_control() {
             harness.hover_at(Pos2::new(1.0, size[1] - 1.0));
             harness.run_steps(2);
         }
-        assert!(wrong.is_empty() && seen > 150, "{seen} seen at {size:?}\n{}", wrong.join("\n"));
+        assert!(wrong.is_empty() && seen > 60, "{seen} seen at {size:?}\n{}", wrong.join("\n"));
     }
 }
