@@ -70,7 +70,7 @@ impl PlottedColumn {
             Some([along, number(row, self.column, &shown)?])
         };
         let points_of: Vec<[f64; 2]> = table.rows.iter().enumerate().filter_map(point).collect();
-        // A line that runs to and fro would show no function.
+        // A line that runs back would show no function.
         if points_of.windows(2).all(|pair| pair[0][0] < pair[1][0]) {
             chart.add("", Marks::Line, points_of.iter().copied());
         }
@@ -140,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn values_that_run_to_and_fro_are_not_joined() {
+    fn values_that_go_back_are_not_joined() {
         let rows = vec![vec![1.0, 5.0], vec![3.0, 6.0], vec![2.0, 7.0]];
         let table = Table { rows, ..Table::new("load_cases", &["si.speed", "full.P_c"]) };
         let plotted = PlottedColumn { table: "load_cases".to_owned(), column: 1, over: Some(0) };
