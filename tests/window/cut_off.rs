@@ -141,7 +141,9 @@ fn read_outs_of_rough_sliding_contacts_are_whole() {
     let mut found = Vec::new();
     for size in SIZES {
         let mut harness = open(size, "Light theme");
-        click(&mut harness, "Surfaces");
+        // The panel may be scrolled out of sight.
+        harness.get_by_label("Surfaces").click_accesskit();
+        harness.run_steps(3);
         for (field, text) in [("Roughness of body 1", "0.2"), ("Roughness of body 2", "0.1")] {
             write(&mut harness, field, text);
             press(&mut harness, Modifiers::NONE, Key::Enter);

@@ -260,6 +260,8 @@ fn pick(harness: &mut Window, list: &str, option: &str) {
     harness.run_steps(3);
     harness.get_by_label(option).click_accesskit();
     harness.run_steps(3);
+    // Only a click of the pointer closes the list.
+    crate::driver::press(harness, egui::Modifiers::NONE, egui::Key::Escape);
 }
 
 /// A sweep over the speed with a measured table in its scene.
