@@ -197,8 +197,12 @@ impl Run {
         }
     }
 
-    /// Returns the progress, including that of the last evaluation.
+    /// Returns the progress, including that of the last evaluation. `None` for runs of the Transient tab, which cannot be
+    /// stopped here.
     pub fn standing(&self) -> Option<Standing> {
+        if self.followed.is_some() {
+            return None;
+        }
         let watching = self.campaign.as_ref().and_then(|campaign| campaign.watching.standing());
         self.work.standing().or(watching).or_else(|| self.looking.standing())
     }
@@ -211,7 +215,7 @@ impl Run {
 
     /// Returns true if it computes rows that are stored nowhere else.
     pub fn would_lose(&self) -> bool {
-        self.campaign.is_none() && self.followed.is_none() && self.standing().is_some()
+        self.campaign.is_none() && self.standing().is_some()
     }
 
     /// Stops it and keeps its rows.
