@@ -58,19 +58,23 @@ impl Entries {
     /// Shows one message about a group of fields: the last one if there are several. Reserves two lines, so that
     /// nothing below moves.
     pub fn reserved_ui<'a>(&self, ui: &mut Ui, names: impl IntoIterator<Item = &'a str>) {
-        reserved(ui, 2, |ui| {
-            let names: Vec<&str> = names.into_iter().collect();
-            let last = self.last.filter(|last| names.contains(last)).and_then(|last| self.message(last));
-            if let Some(message) = last.or_else(|| names.iter().find_map(|name| self.message(name))) {
-                // The full message is shown on hover if it does not fit into two lines.
-                let font_id = TextStyle::Small.resolve(ui.style());
-                let format = TextFormat { font_id, color: Palette::of(ui).wrong, ..TextFormat::default() };
-                let mut job = LayoutJob::single_section(sentence(message), format);
-                job.wrap.max_rows = 2;
-                ui.label(job);
-            }
-        });
+        let names: Vec<&str> = names.into_iter().collect();
+        let last = self.last.filter(|last| names.contains(last)).and_then(|last| self.message(last));
+        reserved_message(ui, last.or_else(|| names.iter().find_map(|name| self.message(name))));
     }
+}
+
+/// Draws an error message, if there is one, in two reserved lines, so that nothing below moves. The full message is shown
+/// on hover if it does not fit.
+pub fn reserved_message(ui: &mut Ui, message: Option<&str>) {
+    reserved(ui, 2, |ui| {
+        let Some(message) = message else { return };
+        let font_id = TextStyle::Small.resolve(ui.style());
+        let format = TextFormat { font_id, color: Palette::of(ui).wrong, ..TextFormat::default() };
+        let mut job = LayoutJob::single_section(sentence(message), format);
+        job.wrap.max_rows = 2;
+        ui.label(job);
+    });
 }
 
 /// Reserves space for `lines` lines of small text, so that nothing below moves.

@@ -10,7 +10,7 @@ use super::theme::Palette;
 use crate::app::refusal::Refusal;
 use crate::scene::study::load_cases::LoadCases;
 use crate::scene::{At, CaseTable, CasesError, LoadCase, Method, Scene, Study};
-use egui::{Button, Checkbox, Context, FontId, ScrollArea, TextEdit, Ui, Window, vec2};
+use egui::{Align, Button, Checkbox, Context, FontId, Layout, ScrollArea, TextEdit, Ui, Window, vec2};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -18,6 +18,9 @@ use std::sync::Arc;
 const EXAMPLE: &str = include_str!("../../scenes/load_cases/rollers_and_balls.csv");
 /// Maximum number of refused lines listed in the window. The results list all of them.
 const NAMED: usize = 50;
+/// Height of the number of contacts with the refused lines, and of these lines.
+const READING: f32 = 100.0;
+const REFUSED: f32 = 72.0;
 
 /// Window of load cases with its table.
 pub struct LoadCasesWindow {
@@ -81,7 +84,12 @@ impl LoadCasesWindow {
         let size = vec2(0.6 * room.x, 0.65 * room.y);
         window.default_size(size).max_size(0.9 * room).default_pos(room.to_pos2() * 0.15).show(ctx, |ui| {
             self.table_ui(ui, commands);
-            self.reading_ui(ui, document);
+            // The buttons stay where they are while the table is typed.
+            let size = vec2(ui.available_width(), READING);
+            ui.allocate_ui_with_layout(size, Layout::top_down(Align::LEFT), |ui| {
+                ui.set_min_height(READING);
+                self.reading_ui(ui, document);
+            });
             self.solve_ui(ui, document, commands);
         });
         self.open &= open;
@@ -132,7 +140,7 @@ impl LoadCasesWindow {
                 let color = if bad.is_empty() { Palette::of(ui).verified } else { Palette::of(ui).warning };
                 let good = cases.len() - bad.len();
                 ui.colored_label(color, format!("{good} contacts can be solved, {} lines are refused", bad.len()));
-                ScrollArea::vertical().id_salt("refused lines").max_height(72.0).auto_shrink([false, true]).show(
+                ScrollArea::vertical().id_salt("refused lines").max_height(REFUSED).auto_shrink([false, true]).show(
                     ui,
                     |ui| {
                         for (LoadCase { line, name, .. }, why) in bad.into_iter().take(NAMED) {

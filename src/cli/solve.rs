@@ -304,7 +304,9 @@ fn describe(result: &ContactResult, accuracy: Option<&GridAccuracy>, subsurface:
             let [first, second] = at.surfaces_k;
             (name.to_owned(), format!("mid-film {:.3} K, body 1 {first:.3} K, body 2 {second:.3} K", at.mid_film_k))
         };
-        for (name, value) in [rises("rise at X = 0", &heat.central), rises("largest rise", &heat.largest)] {
+        let of_spike = heat.in_spike.map(|spike| rises("in the spike", &spike));
+        let of_film = [rises("rise at X = 0", &heat.central), rises("largest in film", &heat.outside_spike)];
+        for (name, value) in of_film.into_iter().chain(of_spike) {
             line(&name, value);
         }
         let [first, second] = heat.into_bodies.map(|share| 100.0 * share);

@@ -26,6 +26,8 @@ pub struct Chart {
     pub equal: bool,
     /// True if braces in axis labels and names mark symbols, as in `{H_c}`.
     pub marked: bool,
+    /// Names of the quantities along both axes in results, if the chart shows values of results as they are.
+    pub quantities: Option<[String; 2]>,
 }
 
 /// An axis of a chart.
@@ -144,6 +146,7 @@ impl Chart {
             notes: Vec::new(),
             equal: false,
             marked: false,
+            quantities: None,
         }
     }
 

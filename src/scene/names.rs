@@ -85,6 +85,8 @@ names! {
     MID_FILM_RISE_MAX "heat.mid_film_rise_max_k"
     SURFACE_1_RISE_MAX "heat.surface_1_rise_max_k"
     SURFACE_2_RISE_MAX "heat.surface_2_rise_max_k"
+    RISE_OUTSIDE_SPIKE "heat.mid_film_rise_outside_spike_k"
+    RISE_IN_SPIKE "heat.mid_film_rise_in_spike_k"
     HEAT_INTO_BODIES "heat.into_bodies"
     ENERGY_BALANCE "heat.energy_balance"
     BASIS_P "reduced.basis_p"

@@ -42,6 +42,10 @@ fn a_contact_with_heat_tells_its_temperatures_and_writes_them() {
     assert!(lines.next().unwrap().ends_with("mid_film_rise_k,surface_1_rise_k,surface_2_rise_k"));
     let hottest = lines.map(|line| line.rsplit(',').nth(2).unwrap().parse::<f64>().unwrap()).fold(0.0, f64::max);
     assert!((hottest / heat("mid_film_rise_max_k") - 1.0).abs() < 1e-9);
+    // The spike of this contact is cooler than its film.
+    let (film, spike) = (heat("mid_film_rise_outside_spike_k"), heat("mid_film_rise_in_spike_k"));
+    assert_eq!(film, heat("mid_film_rise_max_k"));
+    assert!(spike > 0.8 * film && spike < 0.9 * film, "{film} {spike}");
 }
 
 #[test]

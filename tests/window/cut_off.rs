@@ -4,7 +4,7 @@
 //! with an ellipsis, or if a part of it lies outside its clip rectangle to the left or right. Above and below, texts of
 //! a list that scrolls may be cut.
 
-use crate::driver::{TABS, Window, click, window};
+use crate::driver::{TABS, Window, click, press, set, wait, window, write};
 use egui::accesskit::Role;
 use egui::epaint::{ClippedShape, Shape, TextShape};
 use egui::{Key, Modifiers, Rect};
@@ -131,6 +131,34 @@ fn no_text_of_a_lesson_is_cut_off() {
             }
         }
         harness.key_press_modifiers(Modifiers::NONE, Key::Escape);
+    }
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+/// Film ratio, friction force and power of a rough contact that slides, with a pinned curve to compare with.
+#[test]
+fn read_outs_of_rough_sliding_contacts_are_whole() {
+    let mut found = Vec::new();
+    for size in SIZES {
+        let mut harness = open(size, "Light theme");
+        // The panel may be scrolled out of sight.
+        harness.get_by_label("Surfaces").click_accesskit();
+        harness.run_steps(3);
+        for (field, text) in [("Roughness of body 1", "0.2"), ("Roughness of body 2", "0.1")] {
+            write(&mut harness, field, text);
+            press(&mut harness, Modifiers::NONE, Key::Enter);
+        }
+        press(&mut harness, Modifiers::COMMAND, Key::D);
+        set(&mut harness, Role::Slider, "Slide-to-roll ratio SRR", 0.2);
+        set(&mut harness, Role::Slider, "Load number M", 80.0);
+        wait(&mut harness, "the picture", |app| !app.busy() && app.traction().is_some_and(|traction| traction > 0.0));
+        look(&mut harness, &format!("read-outs at {size:?}"), 0.0, &mut found);
+        let screen = Rect::from_min_size([0.0, 0.0].into(), size.into());
+        for part in ["λ", "lost", "at SRR"] {
+            let places: Vec<Rect> = harness.query_all_by_label_contains(part).map(|node| node.rect()).collect();
+            let below = places.iter().filter(|place| place.top() > 0.5 * size[1]);
+            assert!(below.clone().any(|place| screen.contains_rect(*place)), "{part} at {size:?}: {places:?}");
+        }
     }
     assert!(found.is_empty(), "{}", found.join("\n"));
 }

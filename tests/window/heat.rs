@@ -51,6 +51,7 @@ fn thermal_contact_is_live_with_temperatures() {
     click(&mut harness, "Results");
     wait(&mut harness, "rest", |app| !app.busy());
     assert!(shows(&harness, "Rise at mid-film") && shows(&harness, "Heat into body 2"));
+    assert!(shows(&harness, "Largest rise in the film"));
     write(&mut harness, "Inlet temperature", "20");
     press(&mut harness, Modifiers::NONE, Key::Enter);
     wait(&mut harness, "rest", |app| !app.busy());

@@ -26,6 +26,7 @@ mod measured;
 mod presets;
 mod results_tab;
 mod rupture;
+mod steady;
 mod surfaces;
 mod tpwl_tab;
 mod traction_tab;

@@ -1,8 +1,11 @@
 //! Every study runs in the window as on the command line: the same contacts, bitwise equal numbers, and its verdicts.
 
 use crate::common::scratch::Scratch;
-use crate::driver::{Window, click, export, set, shows, wait_until, wait_within, window};
+use crate::driver::{
+    Window, choose, click, export, export_plot, run_in_time, set, shows, wait_until, wait_within, window,
+};
 use egui::accesskit::Role;
+use egui_kittest::kittest::Queryable as _;
 use ehl_explorer::app::Explorer;
 use ehl_explorer::engine::{Workbench, run_scene};
 use ehl_explorer::scene::Scene;
@@ -172,4 +175,116 @@ fn a_study_can_be_stopped_and_what_it_found_stays() {
     let rows = harness.state().result_table("random").unwrap().lines().count();
     assert!(rows > 1 && rows < 100_000, "{rows}");
     assert!(shows(&harness, "Not complete yet"));
+}
+
+const HARMONIC: &str = "inputs: (load: Harmonic(amplitude: 0.1, period: 0.5)), duration: 0.5, time_step: Fixed(0.01)";
+
+/// Returns a transient scene with expectations about central film thickness, mass balance and mean load.
+fn expecting(more: &str, expect: &str) -> String {
+    let study = format!("Transient({HARMONIC}{more})");
+    let rest = format!("grid: Uniform(dx: 0.02, domain: (-4.0, 2.0)), expect: [{expect}],");
+    scene("harmonic load", &rest, &study)
+}
+
+const HOLDS: &str = "(name: \"fixed.H_c.amplitude\", within: Between(1e-6, 1.0), from: \"a test\")";
+const SHORT: &str = "(name: \"fixed.H_c.start\", value: 7.0, within: Relative(0.01), from: \"a test\")";
+const BALANCE: &str = "(name: \"fixed.mass_defect\", within: AtMost(0.1), from: \"a test\")";
+
+#[test]
+fn results_have_the_verdicts_of_transient_runs() {
+    let folder = Scratch::new("results-of-runs");
+    for (name, text, verdict, said) in [
+        ("holds", expecting("", HOLDS), Some(true), "All 1 hold"),
+        ("short", expecting("", &format!("{HOLDS}, {SHORT}")), Some(false), "1 of 2 hold"),
+    ] {
+        let path = folder.write(&format!("{name}.ron"), &text);
+        let mut harness = window(Explorer::with_embedded_models(), [1280.0, 800.0]);
+        harness.state_mut().open_scene(&path).unwrap();
+        run_in_time(&mut harness);
+        assert_eq!(harness.state().front(), Some("Transient"));
+        click(&mut harness, "Results");
+        wait_within(PATIENCE, &mut harness, name, |app| app.verdict().is_some());
+        assert_eq!(harness.state().verdict(), verdict, "{name}");
+        assert!(shows(&harness, said) && shows(&harness, "Transient runs"), "{name}: {said}");
+        assert!(!harness.state().running_study());
+        // The numbers are those of a run without the window.
+        let headless = Scene::read(&path).unwrap();
+        let headless = run_scene(&headless, &mut Workbench::new(&*folder), &()).unwrap();
+        let table = headless.tables.first().unwrap();
+        let shown = harness.state().result_table(&table.name).unwrap();
+        assert_eq!(timeless(&table.to_csv()), timeless(&shown), "{name}");
+        // Another load: these verdicts are grey, and a run started by hand brings new ones.
+        let grey =
+            |harness: &Window| harness.state().drawn().any(|(name, _, grey)| name == "results of a study" && grey);
+        assert!(!grey(&harness));
+        set(&mut harness, Role::Slider, "Load number M", 60.0);
+        harness.run_steps(3);
+        assert!(grey(&harness) && shows(&harness, "previous state of the scene"));
+        click(&mut harness, "Run");
+        click(&mut harness, "Run transient");
+        crate::driver::rest_in_time(&mut harness);
+        click(&mut harness, "Results");
+        wait_within(PATIENCE, &mut harness, name, |app| app.verdict().is_some());
+        assert!(!grey(&harness), "{name}");
+        assert_ne!(harness.state().result_table(&table.name), Some(shown), "{name}");
+    }
+}
+
+#[test]
+fn values_that_runs_leave_out_stay_open() {
+    let folder = Scratch::new("results-left-out");
+    let path = folder.write("balance.ron", &expecting(", mass_between: (-1.0, 1.0)", &format!("{HOLDS}, {BALANCE}")));
+    let mut harness = window(Explorer::with_embedded_models(), [1280.0, 800.0]);
+    harness.state_mut().open_scene(&path).unwrap();
+    run_in_time(&mut harness);
+    click(&mut harness, "Results");
+    let done = |harness: &Window| shows(harness, "1 of 2 hold. Run the study computes 1 more");
+    wait_until(PATIENCE, &mut harness, "the evaluation", done);
+    assert_eq!(harness.state().verdict(), None);
+    assert!(shows(&harness, "open") && !shows(&harness, "short"));
+    click(&mut harness, "Run the study");
+    wait_within(PATIENCE, &mut harness, "the study", |app| app.verdict().is_some());
+    assert_eq!(harness.state().verdict(), Some(true));
+    assert!(shows(&harness, "All 2 hold") && !shows(&harness, "Transient runs"));
+    // The study stays when another tab has been in front.
+    click(&mut harness, "Transient");
+    crate::driver::rest_in_time(&mut harness);
+    click(&mut harness, "Results");
+    harness.run_steps(3);
+    assert!(shows(&harness, "All 2 hold"));
+}
+
+/// Selects an option of a list that may be scrolled out of sight.
+fn pick(harness: &mut Window, list: &str, option: &str) {
+    harness.get_by_role_and_label(Role::ComboBox, list).click();
+    harness.run_steps(3);
+    harness.get_by_label(option).click_accesskit();
+    harness.run_steps(3);
+    // Only a click of the pointer closes the list.
+    crate::driver::press(harness, egui::Modifiers::NONE, egui::Key::Escape);
+}
+
+/// A sweep over the speed with a measured table in its scene.
+#[test]
+fn measured_points_are_drawn_over_a_sweep() {
+    let folder = Scratch::new("results-measured");
+    let study = "Sweep(over: [(vary: Speed, values: Log(from: 1, to: 3, n: 4))], methods: [Reduced(model: Embedded)])";
+    let view = "view: (measured: [\"speed [m/s],film [nm]\\n1.5,300\\n2.5,420\\n\"]),";
+    let si = "Si(radius: 0.012, speed: 2.0, load: 2e5, modulus: 231e9, viscosity: 0.02, alpha: 2e-8)";
+    let text = scene("speeds", view, study).replace("source: \"a test\",", &format!("source: \"a test\", at: {si},"));
+    let path = folder.write("speeds.ron", &text);
+    let mut harness = window(Explorer::with_embedded_models().without_system_dialogs(), [1280.0, 800.0]);
+    harness.state_mut().open_scene(&path).unwrap();
+    wait_within(PATIENCE, &mut harness, "the sweep", |app| app.verdict().is_some());
+    let diamonds = |harness: &Window| harness.query_all_by_label("measured").count();
+    assert_eq!(diamonds(&harness), 1, "in the key of the chart of H_c");
+    let svg = export_plot(&mut harness, "Results", "Central film thickness H_c", &folder.join("h_c.svg"));
+    assert!(svg.contains(">measured<"), "{svg}");
+    choose(&mut harness, "Shown of the results", "Table sweep");
+    pick(&mut harness, "Plotted column", "reduced h_c [µm]");
+    assert_eq!(diamonds(&harness), 1);
+    pick(&mut harness, "Horizontal axis", "Line");
+    assert_eq!(diamonds(&harness), 0, "lines have no measured values");
+    pick(&mut harness, "Horizontal axis", "u_m [m/s]");
+    assert_eq!(diamonds(&harness), 1);
 }

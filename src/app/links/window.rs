@@ -3,7 +3,7 @@
 use super::fragment::Fragment;
 use crate::app::command::Command;
 use crate::app::context::Commands;
-use crate::app::controls::message_ui;
+use crate::app::controls::reserved_message;
 use egui::{Context, Id, Modal, TextEdit};
 
 /// State of the window.
@@ -41,9 +41,8 @@ impl LinkWindow {
                 self.message = None;
             }
             open = edit.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
-            if let Some(message) = &self.message {
-                message_ui(ui, message);
-            }
+            // The buttons stay where they are while a message appears.
+            reserved_message(ui, self.message.as_deref());
             ui.add_space(4.0);
             ui.horizontal(|ui| {
                 open |= ui.button("Open").clicked();

@@ -127,7 +127,13 @@ impl MachineWindow {
 
     /// Draws the slider, the sketch and the values of the contact. Returns true if there is a contact.
     fn derived_ui(&mut self, ui: &mut Ui, kind: MachineKind, document: &Document) -> bool {
-        self.slider_ui(ui, kind, document);
+        // The sketch stays where it is if the machine is refused and has no path.
+        ui.scope(|ui| {
+            let spacing = ui.spacing();
+            let slider = spacing.item_spacing.y + spacing.interact_size.y;
+            ui.set_min_height(ui.text_style_height(&TextStyle::Body) + slider);
+            self.slider_ui(ui, kind, document);
+        });
         let machine = self.drafts[kind as usize].clone();
         let shown = trial(&machine, document, units::system(ui.ctx()));
         let modulus = document.bodies().reduced_modulus_pa().unwrap_or(document.point.modulus_pa);

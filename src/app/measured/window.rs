@@ -144,13 +144,18 @@ impl MeasuredWindow {
             }
         });
         let height = (0.22 * ui.ctx().content_rect().height()).max(90.0);
-        ScrollArea::both().id_salt("measured table").max_height(height).auto_shrink([false, true]).show(ui, |ui| {
-            let hint = "speed [mm/s]; film [nm]\n50; 61,2\n100; 98,5\n\nor: srr [%]; friction";
-            let field = TextEdit::multiline(&mut text).code_editor().hint_text(hint).desired_rows(6);
-            let field = ui.add(field.desired_width(f32::INFINITY).font(FontId::monospace(12.0)));
-            left |= field.lost_focus();
-            named(ui, field, "Measured table");
-        });
+        ScrollArea::both()
+            .id_salt("measured table")
+            .max_height(height)
+            .min_scrolled_height(height)
+            .auto_shrink(false)
+            .show(ui, |ui| {
+                let hint = "speed [mm/s]; film [nm]\n50; 61,2\n100; 98,5\n\nor: srr [%]; friction";
+                let field = TextEdit::multiline(&mut text).code_editor().hint_text(hint).desired_rows(6);
+                let field = ui.add(field.desired_width(f32::INFINITY).font(FontId::monospace(12.0)));
+                left |= field.lost_focus();
+                named(ui, field, "Measured table");
+            });
         if text != before || self.draft.is_some() {
             self.draft = Some(text.clone());
         }
@@ -166,7 +171,10 @@ impl MeasuredWindow {
             Err(refused) => message_ui(ui, &refused.to_string()),
             Ok(count) => {
                 let palette = Palette::of(ui);
-                ui.colored_label(palette.verified, format!("{count} lines. Traction draws them as diamonds"));
+                ui.colored_label(
+                    palette.verified,
+                    format!("{count} lines. Traction and Results draw them as diamonds"),
+                );
             }
         });
         let valid = points.is_ok() || text.trim().is_empty();

@@ -31,6 +31,8 @@ pub enum Sample {
     /// A triangle that points downwards.
     Down(f32),
     Cross(f32),
+    /// A square on its corner.
+    Diamond(f32),
     /// A filled area.
     Area,
 }
@@ -68,6 +70,10 @@ impl Sample {
             Self::Dot(radius) => _ = painter.circle_filled(at, radius, color),
             Self::Up(r) => _ = painter.add(polygon(vec![at - vec2(r, -r), at - vec2(0.0, r), at + vec2(r, r)])),
             Self::Down(r) => _ = painter.add(polygon(vec![at - vec2(r, r), at + vec2(r, -r), at + vec2(0.0, r)])),
+            Self::Diamond(r) => {
+                let corners = [vec2(0.0, -r), vec2(r, 0.0), vec2(0.0, r), vec2(-r, 0.0)];
+                painter.add(polygon(corners.map(|corner| at + corner).to_vec()));
+            }
             Self::Area => _ = painter.rect_filled(rect.shrink2(vec2(0.0, 1.5)), 1.0, color),
             Self::Cross(r) => {
                 for corner in [vec2(r, r), vec2(r, -r)] {

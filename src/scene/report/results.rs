@@ -90,7 +90,10 @@ fn temperatures(solved: &Answer, system: UnitSystem) -> Option<Section> {
     let at = |rise: f64| measured(K::Temperature, inlet + rise, system);
     part.row("Mid-film at {X} = 0", at(heat.central.mid_film_k));
     part.row("Surfaces 1, 2 at {X} = 0", format!("{}, {}", at(first), at(second)));
-    part.row("Maximum in the film", at(heat.largest.mid_film_k));
+    part.row("Maximum in the film", at(heat.outside_spike.mid_film_k));
+    if let Some(spike) = heat.in_spike {
+        part.row("Maximum in the pressure spike", at(spike.mid_film_k));
+    }
     Some(part)
 }
 

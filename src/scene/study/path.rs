@@ -258,6 +258,7 @@ pub(super) fn tag(methods: &[Method], k: usize) -> String {
 pub(super) fn charts(x: &ChartAxis, varied: &[String], methods: &[Method], rows: &[&PathRow]) -> Vec<Chart> {
     let chart = |(name, axis): (&str, &str)| {
         let mut chart = Chart::new(axis, x.clone(), ChartAxis::linear(axis));
+        chart.quantities = varied.last().map(|along| [along.clone(), name.to_owned()]);
         for k in 0..methods.len() {
             for rows in rows.chunk_by(|a, b| others(a) == others(b)) {
                 let point = |row: &&PathRow| {

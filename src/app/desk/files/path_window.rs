@@ -1,7 +1,7 @@
 //! Window to choose a path. It opens the file dialog of the system. If there is none, it says so and offers a text
 //! field.
 
-use crate::app::controls::message_ui;
+use crate::app::controls::{either_button, reserved_message};
 use crate::app::desk::Desk;
 use crate::app::notice::Notice;
 use crate::app::purpose::{Purpose, Words, Written};
@@ -94,16 +94,18 @@ impl Desk {
             if edit.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter)) {
                 act = true;
             }
-            if let Some(message) = &window.message {
-                message_ui(ui, message);
-            }
+            // The buttons stay where they are while a message appears or a path is typed.
+            reserved_message(ui, window.message.as_deref());
             if no_dialog {
                 ui.label(RichText::new("The system has no file dialog here: type the path.").small().weak());
             }
             ui.add_space(4.0);
             ui.horizontal(|ui| {
                 let exists = window.overwrite.is_some() && !window.purpose.reads();
-                act |= ui.button(if exists { "Replace the file" } else { action }).clicked();
+                act |= match window.purpose.reads() {
+                    true => ui.button(action).clicked(),
+                    false => either_button(ui, [action, "Replace the file"], exists).clicked(),
+                };
                 again = ui.button("Browse…").on_hover_text("The file dialog of the system, if there is one").clicked();
                 close = ui.button("Cancel").clicked();
             });

@@ -356,8 +356,8 @@ fn spoken(picture: &Picture, view: &MapView, system: UnitSystem) -> String {
     let heat = picture.solution.heat.as_deref();
     let warms = heat.map_or_else(String::new, |heat| {
         format!(
-            ", maximum temperature rise {}",
-            numbers::shown(QuantityKind::TemperatureRise, heat.largest.mid_film_k, system)
+            ", largest temperature rise in the film {}",
+            numbers::shown(QuantityKind::TemperatureRise, heat.outside_spike.mid_film_k, system)
         )
     });
     format!(

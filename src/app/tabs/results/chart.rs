@@ -1,4 +1,4 @@
-//! Charts of a study: lines, dots and crosses over its axes.
+//! Charts of a study: lines, dots and crosses over its axes, and measured points as diamonds.
 
 use crate::app::numbers;
 use crate::app::plot::axes;
@@ -10,9 +10,12 @@ use egui_plot::{Line, MarkerShape, PlotPoints, Points};
 
 /// Maximum number of series in the key above a chart. Further series are named on hover.
 const NAMED: usize = 24;
+/// Name and radius of measured points.
+const MEASURED: &str = "measured";
+const DIAMOND: f32 = 4.0;
 
-/// Draws a chart with its key. `height` is the total height; `fresh` fits the chart to its data.
-pub fn ui(ui: &mut Ui, id: &str, chart: &Chart, height: f32, fresh: bool) {
+/// Draws a chart with its key, and measured points. `height` is the total height; `fresh` fits the chart to its data.
+pub fn ui(ui: &mut Ui, id: &str, (chart, measured): (&Chart, &[[f64; 2]]), height: f32, fresh: bool) {
     let palette = Palette::of(ui);
     let entries = chart.series.iter().enumerate().take(NAMED).map(|(k, series)| {
         let sample = match series.marks {
@@ -22,11 +25,12 @@ pub fn ui(ui: &mut Ui, id: &str, chart: &Chart, height: f32, fresh: bool) {
         };
         Entry::new(plain(&series.name), color(&palette, series.marks, k), sample)
     });
-    let entries: Vec<Entry> = entries.collect();
-    key::over(ui, height, entries, |ui, height| plot(ui, id, chart, height, fresh));
+    let diamonds = (!measured.is_empty()).then(|| Entry::new(MEASURED, palette.text, Sample::Diamond(DIAMOND)));
+    let entries: Vec<Entry> = entries.chain(diamonds).collect();
+    key::over(ui, height, entries, |ui, height| plot(ui, id, (chart, measured), height, fresh));
 }
 
-fn plot(ui: &mut Ui, id: &str, chart: &Chart, height: f32, fresh: bool) {
+fn plot(ui: &mut Ui, id: &str, (chart, measured): (&Chart, &[[f64; 2]]), height: f32, fresh: bool) {
     let palette = Palette::of(ui);
     let (x_log, y_log) = (chart.x.log, chart.y.log);
     let mut plot = axes::plot(ui, id, height, &plain(&chart.x.label), &plain(&chart.y.label))
@@ -48,9 +52,9 @@ fn plot(ui: &mut Ui, id: &str, chart: &Chart, height: f32, fresh: bool) {
         plot = plot.reset();
     }
     axes::show(plot, ui, &chart.title, |plot| {
+        let place = |at: f64, log: bool| if log { at.log10() } else { at };
         for (k, series) in chart.series.iter().enumerate() {
             let color = color(&palette, series.marks, k);
-            let place = |at: f64, log: bool| if log { at.log10() } else { at };
             let points: PlotPoints<'_> =
                 series.points.iter().map(|[x, y]| [place(*x, x_log), place(*y, y_log)]).collect();
             match series.marks {
@@ -63,6 +67,12 @@ fn plot(ui: &mut Ui, id: &str, chart: &Chart, height: f32, fresh: bool) {
                     plot.points(Points::new(&series.name, points).color(color).radius(4.5).shape(MarkerShape::Cross));
                 }
             }
+        }
+        let shown = measured.iter().map(|[x, y]| [place(*x, x_log), place(*y, y_log)]);
+        let shown: Vec<[f64; 2]> = shown.filter(|point| point.iter().all(|value| value.is_finite())).collect();
+        if !shown.is_empty() {
+            let points = Points::new(MEASURED, shown).color(palette.text).radius(DIAMOND);
+            plot.points(points.shape(MarkerShape::Diamond));
         }
     });
 }

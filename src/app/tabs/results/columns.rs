@@ -66,6 +66,11 @@ impl ShownColumn {
         Self { title: format!("{method}{word}{unit}"), kind, system }
     }
 
+    /// Returns the title without marks of symbols.
+    pub fn plain(&self) -> String {
+        self.title.replace(['{', '}'], "")
+    }
+
     /// Returns the shown number of a value as files have it.
     pub fn number(&self, value: f64) -> f64 {
         self.kind.map_or(value, |kind| kind.unit(self.system).number(value))

@@ -92,7 +92,7 @@ fn temperatures(picture: &Picture, system: UnitSystem) -> Vec<Quantity> {
         Quantity { name, symbol, tip, value, si }
     };
     let share = |name, symbol, tip, value: f64| Quantity { name, symbol, tip, value, si: numbers::percent(value) };
-    vec![
+    [
         rise("Rise at mid-film", "mid_film_rise_k", "Above the inlet temperature, at X = 0", heat.central.mid_film_k),
         rise(
             "Rise of body 1",
@@ -106,7 +106,16 @@ fn temperatures(picture: &Picture, system: UnitSystem) -> Vec<Quantity> {
             "Temperature rise of its surface at X = 0",
             heat.central.surfaces_k[1],
         ),
-        rise("Maximum rise", "mid_film_rise_max_k", "At mid-film under pressure", heat.largest.mid_film_k),
+        rise(
+            "Largest rise in the film",
+            "mid_film_rise_outside_spike_k",
+            "At mid-film under pressure, without the pressure spike",
+            heat.outside_spike.mid_film_k,
+        ),
+    ]
+    .into_iter()
+    .chain(heat.in_spike.map(|spike| rise("Rise in the spike", "mid_film_rise_in_spike_k", SPIKE, spike.mid_film_k)))
+    .chain([
         share(
             "Heat into body 1",
             "heat_into_body_1",
@@ -126,8 +135,13 @@ fn temperatures(picture: &Picture, system: UnitSystem) -> Vec<Quantity> {
             "Heat-balance residual: heat generated minus heat removed",
             balance.residual(),
         ),
-    ]
+    ])
+    .collect()
 }
+
+/// Tooltip of the rise in the pressure spike.
+const SPIKE: &str = "Largest rise at mid-film in the pressure spike. It is a needle much narrower than the contact; finer \
+                     grids make it higher";
 
 /// Tooltip of the rolling resistance.
 const ROLLING: &str = "½∫h dp of each body, over the load; it is present in pure rolling too";

@@ -1,5 +1,7 @@
-//! Running study of a scene, or a campaign computed elsewhere. Its rows are stored and evaluated from time to time.
+//! Running study of a scene, a campaign computed elsewhere, or the runs of the Transient tab. The rows are stored and
+//! evaluated from time to time.
 
+use crate::app::tabs::transient::Recorded;
 use crate::engine::Workbench;
 use crate::engine::campaign::Status;
 use crate::engine::campaign::watch::{News, watch};
@@ -46,6 +48,12 @@ impl Look {
         Self { charts, outcome, rows: rows.len(), complete, took: begun.elapsed() }
     }
 
+    /// Creates an evaluation without rows and charts.
+    #[cfg(test)]
+    pub(super) fn of(outcome: SceneOutcome, complete: bool) -> Self {
+        Self { charts: Vec::new(), outcome, rows: 0, complete, took: Duration::ZERO }
+    }
+
     /// Returns a table by its name.
     pub fn table(&self, name: &str) -> Option<&Table> {
         self.outcome.tables.iter().find(|table| table.name == name)
@@ -89,6 +97,16 @@ pub struct Campaign {
     watching: Background<News>,
 }
 
+/// Study of the Transient tab whose rows are taken over.
+struct Followed {
+    /// Number of the study.
+    number: u64,
+    /// Number of rows that have been taken over.
+    taken: usize,
+    /// True if there will be no further rows.
+    ended: bool,
+}
+
 /// Study of a scene, with its rows and their last evaluation.
 pub struct Run {
     /// Scene at the start of the study.
@@ -97,6 +115,8 @@ pub struct Run {
     pub look: Option<Look>,
     /// Campaign that the rows come from. `None` if they are computed here.
     pub campaign: Option<Campaign>,
+    /// Study of the Transient tab that the rows come from.
+    followed: Option<Followed>,
     /// Running study.
     work: Background<StudyRow>,
     /// All rows. They are moved into an evaluation while it runs, and new rows are collected here meanwhile.
@@ -130,11 +150,41 @@ impl Run {
         run
     }
 
+    /// Follows the runs of the Transient tab. The scene is the document that they belong to.
+    pub fn follow(scene: Scene, recorded: &Recorded, wake: Wake) -> Self {
+        let mut run = Self::waiting(scene, wake);
+        run.followed = Some(Followed { number: recorded.number, taken: 0, ended: false });
+        run.take_over(recorded);
+        run
+    }
+
+    /// Returns the number of the followed study of the Transient tab.
+    pub fn follows(&self) -> Option<u64> {
+        self.followed.as_ref().map(|followed| followed.number)
+    }
+
+    /// Takes over new rows of the followed study. Returns true if there are any, or if it has ended since.
+    pub fn take_over(&mut self, recorded: &Recorded) -> bool {
+        let Some(followed) = self.followed.as_mut().filter(|followed| followed.number == recorded.number) else {
+            return false;
+        };
+        let new = recorded.rows.get(followed.taken..).unwrap_or_default();
+        new.iter().for_each(|row| self.rows.push(0, row.clone()));
+        followed.taken = recorded.rows.len();
+        self.unseen |= !new.is_empty();
+        if let Some(end) = recorded.end.filter(|_| !followed.ended) {
+            followed.ended = true;
+            (self.stopped, self.wall_s, self.unseen) = (!end.complete, Some(end.wall_s), true);
+        }
+        self.unseen
+    }
+
     fn waiting(scene: Scene, wake: Wake) -> Self {
         Self {
             scene,
             look: None,
             campaign: None,
+            followed: None,
             work: Background::default(),
             rows: Rows::default(),
             looking: Background::default(),
@@ -147,8 +197,12 @@ impl Run {
         }
     }
 
-    /// Returns the progress, including that of the last evaluation.
+    /// Returns the progress, including that of the last evaluation. `None` for runs of the Transient tab, which cannot be
+    /// stopped here.
     pub fn standing(&self) -> Option<Standing> {
+        if self.followed.is_some() {
+            return None;
+        }
         let watching = self.campaign.as_ref().and_then(|campaign| campaign.watching.standing());
         self.work.standing().or(watching).or_else(|| self.looking.standing())
     }
@@ -157,6 +211,11 @@ impl Run {
     pub fn message(&self) -> Option<&String> {
         let watching = self.campaign.as_ref().and_then(|campaign| campaign.watching.message.as_ref());
         self.work.message.as_ref().or(watching)
+    }
+
+    /// Returns true if it computes rows that are stored nowhere else.
+    pub fn would_lose(&self) -> bool {
+        self.campaign.is_none() && self.standing().is_some()
     }
 
     /// Stops it and keeps its rows.
@@ -169,7 +228,8 @@ impl Run {
 
     /// Returns true if further rows may arrive.
     fn goes_on(&self) -> bool {
-        self.work.job().is_some() || self.campaign.as_ref().is_some_and(|campaign| campaign.watching.job().is_some())
+        let watches = self.campaign.as_ref().is_some_and(|campaign| campaign.watching.job().is_some());
+        self.work.job().is_some() || watches || self.followed.as_ref().is_some_and(|followed| !followed.ended)
     }
 
     /// Receives rows since the last frame.

@@ -1,9 +1,9 @@
 //! Results tab: results of any scene. Its study runs in the engine as from the command line, and charts, tables and
 //! verdicts are updated while it runs.
 
-use super::columns::ShownColumn;
+use super::column::PlottedColumn;
 use super::run::{Campaign, Look, Run};
-use super::{chart, contact, table};
+use super::{chart, contact, measured, table, verdicts};
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
 use crate::app::controls::{either_button, message_ui, named, standing_ui, warning_ui};
@@ -12,12 +12,13 @@ use crate::app::drawn::{self, Owner};
 use crate::app::numbers;
 use crate::app::tabs::{About, Offer, View};
 use crate::app::theme::{Palette, rich};
+use crate::app::wake::wake;
 use crate::engine::Workbench;
 use crate::engine::job::{Standing, Wake};
-use crate::scene::{Chart, ChartAxis, Marks, Method, Scene, Study, Table, Verdict};
-use crate::solver::physics::engineering::UnitSystem;
-use egui::{ComboBox, Grid, Label, RichText, ScrollArea, Ui};
+use crate::scene::{Chart, Scene, Study, Table};
+use egui::{ComboBox, Label, RichText, ScrollArea, Ui};
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// Width of the verdicts next to the charts.
 const VERDICTS: f32 = 330.0;
@@ -31,8 +32,19 @@ enum ResultsChoice {
     Charts,
     /// A table, by its name.
     Table(String),
-    /// A column of a table along its lines, by the name of the table and the number of the column.
-    Column(String, usize),
+    /// A column of a table.
+    Column(PlottedColumn),
+}
+
+impl ResultsChoice {
+    /// Returns the name of the table that is shown or plotted.
+    fn table(&self) -> Option<&str> {
+        match self {
+            Self::Charts => None,
+            Self::Table(name) => Some(name),
+            Self::Column(plotted) => Some(&plotted.table),
+        }
+    }
 }
 
 /// Results tab: its run and the displayed part.
@@ -42,13 +54,15 @@ pub struct Results {
     seen: Option<(Document, Scene)>,
     /// True if the study is not that of the document, but a table of load cases.
     of_cases: bool,
+    /// Number of the last study of the Transient tab when the run was started. `None` until the tab is drawn.
+    older: Option<u64>,
     shown: ResultsChoice,
     fresh: bool,
 }
 
 impl Default for Results {
     fn default() -> Self {
-        Self { run: None, seen: None, of_cases: false, shown: ResultsChoice::Charts, fresh: true }
+        Self { run: None, seen: None, of_cases: false, older: None, shown: ResultsChoice::Charts, fresh: true }
     }
 }
 
@@ -86,18 +100,40 @@ impl Results {
 
     /// Returns true if a study runs whose rows are stored nowhere else.
     pub fn would_lose(&self) -> bool {
-        self.run.as_ref().is_some_and(|run| run.campaign.is_none() && run.standing().is_some())
+        self.run.as_ref().is_some_and(Run::would_lose)
     }
 
     /// Returns whether all expectations are met. `None` before the study is complete.
     pub fn verdict(&self) -> Option<bool> {
-        let look = self.run.as_ref()?.look.as_ref().filter(|look| look.complete)?;
-        Some(look.outcome.passed())
+        let run = self.run.as_ref()?;
+        verdicts::passed(run.look.as_ref()?, run.follows().is_some())
     }
 
     /// Returns a table of the last evaluation by its name.
     pub fn table(&self, name: &str) -> Option<&Table> {
         self.run.as_ref()?.look.as_ref()?.table(name)
+    }
+
+    /// Follows the runs of the Transient tab for a scene whose study they are: automatic runs as long as no study has
+    /// been run here, and runs that the user starts.
+    fn follow(&mut self, ctx: &egui::Context, scene: &Scene, context: &Context<'_>) {
+        let Some(recorded) = &context.transient.recorded else { return };
+        let older = *self.older.get_or_insert(if self.run.is_some() { recorded.number } else { 0 });
+        let follows = self.run.as_ref().and_then(Run::follows);
+        if let Some(run) = self.run.as_mut().filter(|_| follows == Some(recorded.number)) {
+            if run.take_over(recorded) {
+                ctx.request_repaint();
+            }
+            return;
+        }
+        let newer = recorded.number > older && (recorded.by_hand || self.run.is_none() || follows.is_some());
+        let present = || Owner::Transient(Arc::clone(&recorded.setup)).is_present(context);
+        if newer && matches!(scene.study, Study::Transient(_)) && present() {
+            let run = Run::follow(scene.clone(), recorded, wake(ctx));
+            let shown = if follows.is_some() { self.shown.clone() } else { ResultsChoice::Charts };
+            *self = Self { run: Some(run), older: Some(older), shown, ..Self::default() };
+            ctx.request_repaint();
+        }
     }
 
     fn scene_ui(&mut self, ui: &mut Ui, scene: &Scene, context: &Context<'_>, commands: &mut Commands) {
@@ -110,7 +146,7 @@ impl Results {
                 ui.weak(&of.source);
             }
         });
-        self.toolbar(ui, context.system, commands);
+        self.toolbar(ui, context, commands);
         if let Some(why) = context.document.lost_question() {
             let title = &context.document.title;
             warning_ui(ui, &format!("The study of “{title}” is replaced by the contact itself: {why}"));
@@ -126,8 +162,12 @@ impl Results {
         if let Some(message) = run.message() {
             message_ui(ui, message);
         }
-        let owner = Box::new(run.scene.clone());
-        let owner = if self.of_cases { Owner::Cases(owner) } else { Owner::Question(owner) };
+        let followed = context.transient.recorded.as_ref().filter(|recorded| run.follows() == Some(recorded.number));
+        let owner = match followed {
+            Some(recorded) => Owner::Transient(Arc::clone(&recorded.setup)),
+            None if self.of_cases => Owner::Cases(Box::new(run.scene.clone())),
+            None => Owner::Question(Box::new(run.scene.clone())),
+        };
         let changed = drawn::is_grey(ui.ctx(), "results of a study", owner, context);
         if changed {
             warning_ui(ui, "These results belong to a previous state of the scene, which has changed since");
@@ -140,7 +180,7 @@ impl Results {
         if changed {
             drawn::fade(ui, false);
         }
-        let fresh = std::mem::take(&mut self.fresh);
+        let (fresh, partial) = (std::mem::take(&mut self.fresh), run.follows().is_some());
         let whole = ui.available_size();
         let beside = whole.x > 2.0 * VERDICTS;
         if beside {
@@ -149,21 +189,21 @@ impl Results {
                 ui.vertical(|ui| {
                     ui.set_min_height(whole.y);
                     ui.set_max_width(width);
-                    shown_ui(ui, look, (&self.shown, context.system), fresh);
+                    shown_ui(ui, look, &self.shown, (context, fresh));
                 });
                 ui.separator();
-                ui.vertical(|ui| verdicts_ui(ui, look));
+                ui.vertical(|ui| verdicts::ui(ui, look, partial));
             });
         } else {
             ui.allocate_ui(egui::vec2(whole.x, 0.6 * whole.y), |ui| {
-                shown_ui(ui, look, (&self.shown, context.system), fresh);
+                shown_ui(ui, look, &self.shown, (context, fresh));
             });
             ui.separator();
-            verdicts_ui(ui, look);
+            verdicts::ui(ui, look, partial);
         }
     }
 
-    fn toolbar(&mut self, ui: &mut Ui, system: UnitSystem, commands: &mut Commands) {
+    fn toolbar(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         ui.horizontal_wrapped(|ui| {
             let standing = self.standing();
             let runs = standing.is_some();
@@ -177,16 +217,20 @@ impl Results {
                     commands.push(Command::RunStudy);
                 }
             }
-            if self.run.is_none() {
+            let Some(run) = &self.run else {
                 ui.weak("This contact");
                 return;
+            };
+            if run.follows().is_some() {
+                let tip = "The runs of the Transient tab. Run the study also computes comparisons that they leave out";
+                ui.weak("Transient runs").on_hover_text(tip);
             }
-            let look = self.run.as_ref().and_then(|run| run.look.as_ref());
+            let look = run.look.as_ref();
             let tables: &[Table] = look.map_or(&[], |look| &look.outcome.tables);
             let text = match &self.shown {
                 ResultsChoice::Charts => "Charts".to_owned(),
                 ResultsChoice::Table(name) => format!("Table {name}"),
-                ResultsChoice::Column(..) => "Column along the lines".to_owned(),
+                ResultsChoice::Column(_) => "Plot of a column".to_owned(),
             };
             let mut chosen = self.shown.clone();
             let combo = ComboBox::from_id_salt("shown of results").selected_text(text).width(180.0).show_ui(ui, |ui| {
@@ -197,11 +241,11 @@ impl Results {
                 }
             });
             named(ui, combo.response, "Shown of the results");
-            if let ResultsChoice::Table(name) | ResultsChoice::Column(name, _) = &chosen
-                && let Some(of) = tables.iter().find(|table| table.name == *name)
-                && let Some(column) = column_ui(ui, of, &chosen, system)
+            let plotted = if let ResultsChoice::Column(plotted) = &chosen { Some(plotted) } else { None };
+            if let Some(of) = chosen.table().and_then(|name| tables.iter().find(|table| table.name == name))
+                && let Some(plotted) = PlottedColumn::ui(ui, (of, &run.scene.study), plotted, context.system)
             {
-                (chosen, self.fresh) = (ResultsChoice::Column(name.clone(), column), true);
+                (chosen, self.fresh) = (ResultsChoice::Column(plotted), true);
             }
             self.shown = chosen;
             standing_ui(ui, standing, "Progress of the study");
@@ -227,6 +271,7 @@ impl View for Results {
         let document = context.document;
         let seen = self.seen.take().filter(|seen| seen.0 == *document);
         let seen = seen.unwrap_or_else(|| (document.clone(), document.to_scene()));
+        self.follow(ui.ctx(), &seen.1, context);
         self.scene_ui(ui, &seen.1, context, commands);
         self.seen = Some(seen);
     }
@@ -242,9 +287,9 @@ impl View for Results {
             )];
         }
         let look = self.run.as_ref().and_then(|run| run.look.as_ref());
-        let table = match &self.shown {
-            ResultsChoice::Table(name) | ResultsChoice::Column(name, _) => look.and_then(|look| look.table(name)),
-            ResultsChoice::Charts => look.and_then(|look| look.outcome.tables.first()),
+        let table = match self.shown.table() {
+            Some(name) => look.and_then(|look| look.table(name)),
+            None => look.and_then(|look| look.outcome.tables.first()),
         };
         vec![Offer::table("Table as CSV…", "The table that is chosen, or the first one", table, |table| {
             table.to_csv()
@@ -301,17 +346,18 @@ fn campaign_ui(ui: &mut Ui, campaign: &Campaign) {
 /// Maximum number of failed shards listed on hover.
 const NAMED_FAILURES: usize = 12;
 
-fn shown_ui(ui: &mut Ui, look: &Look, (shown, system): (&ResultsChoice, UnitSystem), fresh: bool) {
+fn shown_ui(ui: &mut Ui, look: &Look, shown: &ResultsChoice, (context, fresh): (&Context<'_>, bool)) {
+    let system = context.system;
     match shown {
         ResultsChoice::Table(name) => match look.table(name) {
             Some(of) => table::ui(ui, of, system),
             None => _ = ui.weak("There is no such table yet"),
         },
-        ResultsChoice::Column(name, column) => {
-            match look.table(name).and_then(|of| column_chart(of, *column, system)) {
-                Some(of) => {
+        ResultsChoice::Column(plotted) => {
+            match look.table(&plotted.table).and_then(|of| plotted.chart(of, system, context.measured)) {
+                Some((of, measured)) => {
                     let height = ui.available_height() - 4.0;
-                    chart::ui(ui, &format!("column {column} of {name} {system:?}"), &of, height, fresh);
+                    chart::ui(ui, &format!("{plotted:?} {system:?}"), (&of, &measured), height, fresh);
                 }
                 None => _ = ui.weak("There is no such column yet"),
             }
@@ -330,97 +376,20 @@ fn shown_ui(ui: &mut Ui, look: &Look, (shown, system): (&ResultsChoice, UnitSyst
             ScrollArea::vertical().id_salt("charts of results").auto_shrink(false).show(ui, |ui| {
                 for (k, of) in charts.into_iter().enumerate() {
                     ui.label(RichText::new(&of.title).strong());
-                    chart::ui(ui, &format!("chart {k} of results"), of, height, fresh);
+                    let measured = measured_of(of, look, context);
+                    chart::ui(ui, &format!("chart {k} of results"), (of, &measured), height, fresh);
                 }
             });
         }
     }
 }
 
-/// Draws the choice of a column to plot. Returns the column that was chosen.
-fn column_ui(ui: &mut Ui, table: &Table, shown: &ResultsChoice, system: UnitSystem) -> Option<usize> {
-    let title = |column: usize| {
-        let name = table.columns.get(column).map_or("", String::as_str);
-        ShownColumn::of(name, system).title.replace(['{', '}'], "")
-    };
-    let present = if let ResultsChoice::Column(_, column) = shown { Some(*column) } else { None };
-    let text = present.map_or_else(|| "Plot a column".to_owned(), title);
-    let mut chosen = None;
-    let combo = ComboBox::from_id_salt("plotted column").selected_text(text).width(170.0).show_ui(ui, |ui| {
-        for column in 0..table.columns.len() {
-            if ui.selectable_label(present == Some(column), title(column)).clicked() {
-                chosen = Some(column);
-            }
+/// Returns the measured points of the document over the quantities of a chart.
+fn measured_of(chart: &Chart, look: &Look, context: &Context<'_>) -> Vec<[f64; 2]> {
+    match (&chart.quantities, look.outcome.tables.first()) {
+        (Some([x, y]), Some(table)) if !context.measured.is_empty() => {
+            measured::points([x, y], table, context.measured)
         }
-    });
-    named(ui, combo.response, "Plotted column").on_hover_text("Plots a column along the lines of the table");
-    chosen
-}
-
-/// Returns a chart of a column along the lines of a table. `None` if there is no such column.
-fn column_chart(table: &Table, column: usize, system: UnitSystem) -> Option<Chart> {
-    let shown = ShownColumn::of(table.columns.get(column)?, system);
-    let title = shown.title.replace(['{', '}'], "");
-    let mut chart = Chart::new(&title, ChartAxis::linear("Line"), ChartAxis::linear(&title));
-    let value = |row: &Vec<f64>| row.get(column).map(|value| shown.number(*value)).filter(|value| value.is_finite());
-    let points = |k: usize, row: &Vec<f64>| Some([(k + 1) as f64, value(row)?]);
-    let points: Vec<[f64; 2]> = table.rows.iter().enumerate().filter_map(|(k, row)| points(k, row)).collect();
-    chart.add("", Marks::Line, points.iter().copied());
-    chart.add(title, Marks::Dots, points);
-    Some(chart)
-}
-
-fn verdicts_ui(ui: &mut Ui, look: &Look) {
-    let palette = Palette::of(ui);
-    let outcome = &look.outcome;
-    let held = outcome.verdicts.iter().filter(|verdict| verdict.holds).count();
-    ScrollArea::vertical().id_salt("verdicts").auto_shrink(false).show(ui, |ui| {
-        ui.strong("Expectations");
-        let (text, color) = match (look.complete, outcome.verdicts.len()) {
-            (false, _) => (format!("Not complete yet: {} rows", look.rows), palette.quiet),
-            (true, 0) if outcome.passed() => ("The scene expects nothing; all converged".to_owned(), palette.verified),
-            (true, 0) => ("Some solves did not converge".to_owned(), palette.warning),
-            (true, all) if outcome.passed() => (format!("All {all} hold"), palette.verified),
-            (true, all) if held == all => ("All hold, but some solves did not converge".to_owned(), palette.warning),
-            (true, all) => (format!("{held} of {all} hold"), palette.warning),
-        };
-        ui.colored_label(color, text);
-        Grid::new("expectations").num_columns(3).striped(true).spacing([8.0, 3.0]).show(ui, |ui| {
-            for verdict in &outcome.verdicts {
-                verdict_ui(ui, verdict, look.complete, &palette);
-            }
-        });
-        for warning in &outcome.found.warnings {
-            warning_ui(ui, &warning.to_string());
-        }
-        if outcome.verdicts.is_empty() {
-            ui.add_space(4.0);
-            Grid::new("values").num_columns(2).striped(true).spacing([8.0, 3.0]).show(ui, |ui| {
-                for value in &outcome.found.values {
-                    ui.label(of_method(&value.name, value.method.as_ref()));
-                    ui.label(numbers::counted(value.value));
-                    ui.end_row();
-                }
-            });
-        }
-    });
-}
-
-fn verdict_ui(ui: &mut Ui, verdict: &Verdict, complete: bool, palette: &Palette) {
-    let (mark, color) = match (verdict.holds, complete) {
-        (true, _) => ("holds", palette.verified),
-        (false, true) => ("short", palette.warning),
-        (false, false) => ("open", palette.quiet),
-    };
-    ui.label(rich(mark, 11.0, color));
-    let expected = &verdict.expected;
-    let tip = format!("Expected {}; {}", expected.wanted(), expected.from);
-    ui.label(of_method(&expected.name, expected.method.as_ref())).on_hover_text(&tip);
-    let value = verdict.value.map_or_else(|| "–".to_owned(), numbers::counted);
-    ui.label(value).on_hover_text(tip);
-    ui.end_row();
-}
-
-fn of_method(name: &str, method: Option<&Method>) -> String {
-    method.map_or_else(|| name.to_owned(), |method| format!("{name}, {}", method.name()))
+        _ => Vec::new(),
+    }
 }

@@ -2,6 +2,7 @@
 //! When the sliders are idle, the full system checks the models and trains them again.
 
 use super::linearised::NumberStudy;
+use super::recorded::Recorded;
 use super::runs::{TransientRuns, insert};
 use crate::app::tabs::transient::{Run, Setup};
 use crate::app::wake::wake;
@@ -147,6 +148,7 @@ impl TransientRuns {
         if self.work.job().is_some() {
             // The running computation belongs to another set-up.
             self.work = Background::default();
+            self.recorded.iter_mut().for_each(Recorded::stopping);
             self.end();
             self.next = None;
         }

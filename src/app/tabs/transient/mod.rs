@@ -18,6 +18,7 @@ mod player;
 mod profiles;
 pub mod projection;
 pub mod reach;
+mod recorded;
 mod run;
 mod runs;
 pub mod series;
@@ -28,6 +29,7 @@ mod tab;
 mod tpwl;
 
 pub use linearised::{NumberTask, OtherRuleTask};
+pub use recorded::Recorded;
 pub use run::Run;
 pub use runs::{TransientCommand, TransientRuns};
 pub use setup::{Setup, model_in_use};

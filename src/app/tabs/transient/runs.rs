@@ -1,6 +1,7 @@
 //! Transient runs: the requested set-up, the results so far, and the displayed time.
 
 use super::player::Player;
+use super::recorded::Recorded;
 use super::run::Run;
 use super::setup::Setup;
 
@@ -55,6 +56,8 @@ pub struct TransientRuns {
     trained: Option<(f64, Vec<Vec<Moment>>)>,
     /// Run that receives the rows.
     filled: Filled,
+    /// Rows of the last study.
+    pub recorded: Option<Recorded>,
     /// Set-up of the running job until its first row arrives.
     pub(super) next: Option<Arc<Setup>>,
     pub(super) following: Following,
@@ -85,9 +88,13 @@ impl TransientRuns {
     pub fn receive(&mut self, store: &Store) {
         self.number.receive();
         let (mut rows, works) = (Vec::new(), self.work.job().is_some());
+        if self.work.job().is_some_and(Job::stopping) {
+            self.recorded.iter_mut().for_each(Recorded::stopping);
+        }
         self.work.receive(|row| rows.push(row));
         for row in rows {
             if let StudyRow::Transient(row) = row {
+                self.recorded.iter_mut().for_each(|recorded| recorded.push(&row));
                 self.take(row);
             }
         }
@@ -113,6 +120,8 @@ impl TransientRuns {
         if let Some(run) = self.filled().filter(|run| stopped && !run.ended) {
             (run.ended, run.trajectory.ended) = (true, Ended::Cancelled { time: run.reached() });
         }
+        let failed = self.work.message.is_some();
+        self.recorded.iter_mut().for_each(|recorded| recorded.end(failed));
         self.filled = Filled::None;
     }
 
@@ -302,6 +311,7 @@ impl TransientRuns {
         let setup = Arc::new(setup);
         if self.begin(ctx, store, &setup, setup.question()) {
             self.following.by_hand(&setup);
+            self.recorded.iter_mut().for_each(|recorded| recorded.by_hand = true);
             self.next = None;
             self.runs.clear();
             self.linearised = None;
@@ -318,10 +328,12 @@ impl TransientRuns {
         if let Err(error) = setup.study.own_march(setup.point, setup.lubricant, Frame::Fixed).problem() {
             self.work = Background::default();
             self.work.message = Some(error.to_string());
+            self.recorded.iter_mut().for_each(|recorded| recorded.end(true));
             return false;
         }
         self.filled = Filled::None;
         self.next = Some(Arc::clone(setup));
+        self.recorded = Some(Recorded::begin(setup, self.recorded.as_ref()));
         self.work.run(question.ask(Workbench::on(store, ""), wake(ctx)));
         true
     }

@@ -5,6 +5,7 @@ mod coupled;
 mod mixing;
 #[cfg(test)]
 mod plane_tests;
+mod spike;
 mod temperatures;
 #[cfg(test)]
 mod tests;

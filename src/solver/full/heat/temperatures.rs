@@ -1,5 +1,6 @@
 //! Temperatures of a solved thermal contact.
 
+use super::spike::spike;
 use crate::solver::discrete::heat::{HeatBalance, Lines, MovingSource, POINTS, Profile, Spread, WarmFilm};
 use crate::solver::full::problem::Problem;
 use crate::solver::physics::lubricant::{LimitingStress, ScaledHeat};
@@ -41,6 +42,10 @@ pub struct Temperatures {
     pub central: Rises,
     /// Maximum rises in the pressurised film.
     pub largest: Rises,
+    /// Maximum rises in the pressurised film outside the pressure spike.
+    pub outside_spike: Rises,
+    /// Maximum rises in the pressure spike, a needle that is much narrower than the contact. `None` without a spike.
+    pub in_spike: Option<Rises>,
     /// Heat sources and sinks.
     pub balance: HeatBalance,
     /// Temperature at the inlet \[K\].
@@ -161,10 +166,21 @@ impl Temperatures {
         let inlet_k = heat.heat.inlet_temperature;
         let x = fields.x[fields.first..].to_vec();
         let kelvin = |theta: Profile| theta.map(|theta| inlet_k * theta);
-        let states = lines.lines.iter().flat_map(|line| &line.states);
-        let loaded = lines.stations().zip(states).filter(|(_, state)| state.pressure > 0.0);
-        let largest =
-            loaded.fold(Rises::default(), |largest, (station, _)| largest.or_larger(Rises::of(&kelvin(station.theta))));
+        let (mut outside_spike, mut in_spike) = (Rises::default(), None::<Rises>);
+        for line in &lines.lines {
+            let pressure: Vec<f64> = line.states.iter().map(|state| state.pressure).collect();
+            let needle = spike(lines.x(), &pressure).unwrap_or_default();
+            let loaded = line.march.stations.iter().zip(&pressure).enumerate().filter(|(_, (_, p))| **p > 0.0);
+            for (i, (station, _)) in loaded {
+                let rises = Rises::of(&kelvin(station.theta));
+                if needle.contains(&i) {
+                    in_spike = Some(in_spike.unwrap_or_default().or_larger(rises));
+                } else {
+                    outside_spike = outside_spike.or_larger(rises);
+                }
+            }
+        }
+        let largest = outside_spike.or_larger(in_spike.unwrap_or_default());
         let balance = problem.course(&[]).map(|course| lines.balance(&course)).unwrap_or_default();
         let mid_stress_pa = fields
             .stress
@@ -179,6 +195,8 @@ impl Temperatures {
             shear_stress: fields.stress.to_vec(),
             central: Rises::central(lines, inlet_k),
             largest,
+            outside_spike,
+            in_spike,
             balance,
             inlet_k,
             stations: lines.x().to_vec(),

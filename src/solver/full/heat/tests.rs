@@ -116,6 +116,28 @@ fn solutions_do_not_depend_on_start_or_order_of_bodies() {
     assert!(a.central.surfaces_k[0] > 2.0 * a.central.surfaces_k[1]);
 }
 
+/// The rise in the spike depends on the grid, that in the film hardly. Hence both are reported.
+#[test]
+fn rises_in_the_pressure_spike_are_reported_apart() {
+    let contact = OperatingPoint { load: 1e5, alpha_per_pa: 2.5e-8, ..point(0.3) };
+    let on = |nodes: usize, contact: &OperatingPoint| {
+        let grid = GridSpec::Graded { nodes, domain: (-10.0, 2.0), registered: false };
+        solved(&mut FullSolver::new(grid).unwrap(), contact, warm(EYRING, Heat::default())).heat.unwrap()
+    };
+    let rises = [401, 1201].map(|nodes| {
+        let heat = on(nodes, &contact);
+        let spike = heat.in_spike.unwrap();
+        assert_eq!(heat.largest.mid_film_k, spike.mid_film_k, "the needle is hotter than the film");
+        [heat.outside_spike.mid_film_k, spike.mid_film_k]
+    });
+    let [[film, spike], [fine_film, fine_spike]] = rises;
+    assert!((film / fine_film - 1.0).abs() < 1e-3 && fine_spike / spike > 1.005, "{rises:?}");
+    assert!(spike / film > 1.05 && fine_spike / fine_film < 1.3, "{rises:?}");
+    // Much sliding flattens the spike.
+    let heat = on(695, &OperatingPoint { speed_m_per_s: 4.0, ..point(1.0) });
+    assert!(heat.in_spike.is_none() && heat.outside_spike == heat.largest, "{:?}", heat.in_spike);
+}
+
 #[test]
 fn a_limiting_stress_bounds_the_traction_and_the_heat_it_makes() {
     let mut solver = FullSolver::new(GRID).unwrap();
