@@ -6,14 +6,17 @@
 //! Functional Mock-up Units.
 
 mod approach;
+mod derivative;
 mod error;
 pub mod fmu;
 mod in_time;
 
+pub use derivative::{Derivative, Input};
 pub use error::CoupledError;
 pub use in_time::{InTime, InTimeState};
 
 use self::approach::Reach;
+use self::derivative::Neighbourhood;
 use self::error::check_sliding;
 use super::answer::{Solver, answer};
 use crate::scene::{Answer, ContactResult, ContactSpec, Grid, Method, ModelSource, Request, Words};
@@ -151,6 +154,19 @@ fn approach_reference(point: &OperatingPoint) -> f64 {
 }
 
 impl Inputs {
+    /// All inputs zero.
+    const NONE: Self = Self {
+        radius_m: 0.0,
+        radius_ratio: 0.0,
+        speed_m_per_s: 0.0,
+        slide_to_roll_ratio: 0.0,
+        load: 0.0,
+        approach_m: 0.0,
+        modulus_pa: 0.0,
+        viscosity_pa_s: 0.0,
+        alpha_per_pa: 0.0,
+    };
+
     /// Returns the contact that the inputs define under a load.
     fn stated(&self, kind: ContactKind, load: f64) -> ContactSpec {
         let ellipse = kind == ContactKind::Point && self.radius_ratio != 1.0;
@@ -178,6 +194,7 @@ pub struct Coupled {
     pressed: Pressed,
     /// Trained loads of the last inputs, if an approach is given.
     reach: Option<Reach>,
+    neighbourhood: Neighbourhood,
 }
 
 impl Coupled {
@@ -191,7 +208,8 @@ impl Coupled {
         }
         let online = Online::new(Arc::clone(&model), ReducedOptions::default());
         let lubricant = model.domain.lubricant;
-        Ok(Self { model, online, full: None, lubricant, pressed, reach: None })
+        let (full, reach, neighbourhood) = (None, None, Neighbourhood::default());
+        Ok(Self { model, online, full, lubricant, pressed, reach, neighbourhood })
     }
 
     /// Returns which input presses the bodies together.

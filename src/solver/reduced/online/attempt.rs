@@ -63,6 +63,17 @@ impl<'a> Watch<'a> {
     }
 }
 
+/// Returns the case of a problem for a local model.
+pub(super) fn case_of<'a>(window: &Window, problem: &'a Problem, options: &ReducedOptions, stop: Stop) -> Case<'a> {
+    // With complementarity the boundary alone determines the cavitated region.
+    let penalty = match window.cavitation {
+        Cavitation::Penalty => options.penalty.unwrap_or(window.penalty),
+        Cavitation::Complementarity | Cavitation::MassConserving { .. } => 0.0,
+    };
+    let scale = window.grid.scale(problem.moes);
+    Case { problem, scale, curvature: 1.0, penalty, prescribed: false, stop }
+}
+
 /// Runs Newton's method from an initial guess, within `limit` steps and the options' own limit.
 pub(super) fn attempt(
     window: &Window,
@@ -76,17 +87,11 @@ pub(super) fn attempt(
     if watch.wish.cancelled() {
         return Err(ReducedError::Cancelled);
     }
-    let scale = window.grid.scale(problem.moes);
     let mut coefficients = vec![0.0; operators.modes()];
     coefficients.iter_mut().zip(&start.coefficients).for_each(|(c, known)| *c = *known);
-    // With complementarity the boundary alone determines the cavitated region.
-    let penalty = match window.cavitation {
-        Cavitation::Penalty => options.penalty.unwrap_or(window.penalty),
-        Cavitation::Complementarity | Cavitation::MassConserving { .. } => 0.0,
-    };
     let tolerance = options.tolerance * share_of_tolerance(problem, start.h_c, options);
-    let stop = Stop::new(tolerance, options.max_newton.min(limit));
-    let case = Case { problem, scale, curvature: 1.0, penalty, prescribed: false, stop };
+    let case = case_of(window, problem, options, Stop::new(tolerance, options.max_newton.min(limit)));
+    let scale = case.scale;
     let Guess { coefficients: known, fronts, theta, .. } = start;
     operators.begin(&case, &Start { window, modes: known.len(), fronts: Some(fronts), theta });
     operators.carry_load(problem, scale, &mut coefficients);

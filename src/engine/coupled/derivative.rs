@@ -1,0 +1,275 @@
+//! Derivatives of the outputs of a steady contact by its inputs and parameters.
+//!
+//! The outputs of two contacts on both sides of the present one follow from the linearised sampled equations: one linear
+//! solve per input, with the Jacobian of the present solution, whose right-hand side is a difference of residuals. The
+//! derivative is the central difference of these outputs.
+//!
+//! Thermal models, models by residual minimisation and changes of the radius ratio have no such equations. Their
+//! derivatives are fourth-order differences of four converged solutions, with a smaller tolerance of the iteration.
+
+use super::approach::{Beyond, End};
+use super::{Coupled, CoupledError, Inputs, Outputs, Pressed};
+use crate::engine::answer::{Solver, answer, answer_of};
+use crate::scene::Request;
+use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::reduced::{Online, ReducedOptions, ReducedSolution};
+use std::sync::Arc;
+
+/// Selects an input or a parameter.
+pub type Input = fn(&mut Inputs) -> &mut f64;
+
+/// Relative change of an input for linearised equations. The error of the central difference is proportional to its
+/// square, the effect of rounding to its inverse.
+const NEAR: f64 = 2e-5;
+/// Relative change of an input for converged solutions.
+const FAR: f64 = 1e-3;
+/// Change of an input of zero. Tractions are linear in the slide-to-roll ratio only for very small ratios.
+const FROM_ZERO: f64 = 1e-9;
+
+/// Tolerance of the solutions for differences.
+const TOLERANCE: f64 = 1e-9;
+
+/// Method of a derivative.
+#[derive(Clone, Copy, PartialEq)]
+enum Means {
+    /// Linearised equations.
+    Linearised,
+    /// Converged solutions.
+    Solved,
+}
+
+impl Means {
+    /// Returns the relative changes of the input, and the weights of the outputs.
+    fn places(self) -> &'static [(f64, f64)] {
+        match self {
+            Self::Linearised => &[(-NEAR, -0.5 / NEAR), (NEAR, 0.5 / NEAR)],
+            Self::Solved => &[
+                (-2.0 * FAR, 1.0 / (12.0 * FAR)),
+                (-FAR, -8.0 / (12.0 * FAR)),
+                (FAR, 8.0 / (12.0 * FAR)),
+                (2.0 * FAR, -1.0 / (12.0 * FAR)),
+            ],
+        }
+    }
+
+    /// Returns the inputs at all places. `size` is the size of the input.
+    fn moved(self, inputs: &Inputs, by: Input, size: f64) -> Vec<Inputs> {
+        let moved = |(place, _): &(f64, f64)| {
+            let mut moved = *inputs;
+            *by(&mut moved) += place * size;
+            moved
+        };
+        self.places().iter().map(moved).collect()
+    }
+
+    /// Returns the size of an input.
+    fn size(self, inputs: &Inputs, by: Input) -> f64 {
+        let value = by(&mut inputs.clone()).abs();
+        let step = self.places().iter().map(|(place, _)| place.abs()).fold(0.0, f64::max);
+        if value > 0.0 { value } else { FROM_ZERO / step }
+    }
+
+    /// Returns the derivative for outputs at all places.
+    fn of(self, outputs: Vec<Outputs>, size: f64) -> Derivative {
+        let weights = self.places().iter().map(|(_, weight)| weight / size);
+        Derivative { parts: weights.zip(outputs).collect(), linearised: self == Self::Linearised }
+    }
+}
+
+/// Derivative of all outputs by one input.
+#[derive(Clone, Debug)]
+pub struct Derivative {
+    /// Outputs of contacts next to the present one, with their weights.
+    parts: Vec<(f64, Outputs)>,
+    /// True if it follows from the linearised equations.
+    pub linearised: bool,
+}
+
+impl Derivative {
+    /// Returns the derivative of one output. NaN if the output is NaN.
+    pub fn of(&self, output: impl Fn(&Outputs) -> f64) -> f64 {
+        self.parts.iter().map(|(weight, outputs)| weight * output(outputs)).sum()
+    }
+
+    fn times(mut self, factor: f64) -> Self {
+        self.parts.iter_mut().for_each(|(weight, _)| *weight *= factor);
+        self
+    }
+
+    fn plus(mut self, other: Self) -> Self {
+        self.parts.extend(other.parts);
+        self
+    }
+}
+
+/// Contact: its inputs and its load.
+type Contact = (Inputs, f64);
+
+/// Data for derivatives, computed at first use.
+#[derive(Default)]
+pub(super) struct Neighbourhood {
+    /// Last solution whose equations were linearised.
+    base: Option<(OperatingPoint, ReducedSolution)>,
+    /// Solver with the smaller tolerance.
+    fine: Option<Online>,
+}
+
+impl Coupled {
+    /// Returns the derivative of all outputs by an input or a parameter. `outputs` are those of the inputs.
+    ///
+    /// # Errors
+    /// If the full solver computed the outputs, or if contacts next to this one are refused or have no solution.
+    pub fn derivative(&mut self, inputs: &Inputs, outputs: &Outputs, by: Input) -> Result<Derivative, CoupledError> {
+        if outputs.full {
+            return Err(CoupledError::NoDerivative("the full solver computed these outputs"));
+        }
+        let mut derivative = self.by_means(inputs, outputs, by, Means::Linearised)?;
+        if derivative.is_none() {
+            derivative = self.by_means(inputs, outputs, by, Means::Solved)?;
+        }
+        derivative.ok_or(CoupledError::NoDerivative("the reduced model does not converge next to this contact"))
+    }
+
+    fn by_means(
+        &mut self,
+        inputs: &Inputs,
+        outputs: &Outputs,
+        by: Input,
+        means: Means,
+    ) -> Result<Option<Derivative>, CoupledError> {
+        if self.pressed == Pressed::Load {
+            return self.under_load(inputs, inputs.load, by, means);
+        }
+        match self.beyond(inputs)? {
+            Some(end) => self.beyond_end(&end, inputs, by, means),
+            None => self.at_approach(inputs, outputs.load, by, means),
+        }
+    }
+
+    /// Returns the derivative under a load. By the input `load`, the load changes too.
+    fn under_load(
+        &mut self,
+        inputs: &Inputs,
+        load: f64,
+        by: Input,
+        means: Means,
+    ) -> Result<Option<Derivative>, CoupledError> {
+        let (size, by_load) = (means.size(inputs, by), selects(by, |inputs| &mut inputs.load));
+        let contact = |moved: Inputs| (moved, if by_load { moved.load } else { load });
+        let contacts: Vec<Contact> = means.moved(inputs, by, size).into_iter().map(contact).collect();
+        Ok(self.next_to((inputs, load), &contacts, means)?.map(|outputs| means.of(outputs, size)))
+    }
+
+    /// Returns the derivative at an approach between those of the trained loads, where the load is known.
+    fn at_approach(
+        &mut self,
+        inputs: &Inputs,
+        load: f64,
+        by: Input,
+        means: Means,
+    ) -> Result<Option<Derivative>, CoupledError> {
+        let loaded = Inputs { load, ..*inputs };
+        let Some(by_load) = self.under_load(&loaded, load, |inputs| &mut inputs.load, means)? else { return Ok(None) };
+        let compliance = by_load.of(|outputs| outputs.approach_m);
+        if selects(by, |inputs| &mut inputs.approach_m) {
+            return Ok(Some(by_load.times(1.0 / compliance)));
+        }
+        let own = self.under_load(&loaded, load, by, means)?;
+        // The load changes such that the approach does not.
+        Ok(own.map(|own| {
+            let load = -own.of(|outputs| outputs.approach_m) / compliance;
+            own.plus(by_load.times(load))
+        }))
+    }
+
+    /// Returns the derivative at an approach beyond those of the trained loads. The end moves with the inputs.
+    fn beyond_end(
+        &mut self,
+        beyond: &Beyond,
+        inputs: &Inputs,
+        by: Input,
+        means: Means,
+    ) -> Result<Option<Derivative>, CoupledError> {
+        let kind = self.model.contact();
+        if selects(by, |inputs| &mut inputs.approach_m) {
+            let size = beyond.end.length_m;
+            let outputs = means.moved(inputs, by, size).into_iter();
+            let outputs = outputs.map(|moved| beyond.outputs(&beyond.end, moved.approach_m, kind)).collect();
+            return Ok(Some(means.of(outputs, size)));
+        }
+        let size = means.size(inputs, by);
+        let moved = means.moved(inputs, by, size);
+        let loads = moved.iter().map(|moved| self.load_of(beyond, moved));
+        let loads: Vec<f64> = loads.collect::<Result<_, _>>()?;
+        let mut next_to_end = |times: f64| {
+            let contacts: Vec<Contact> = moved.iter().zip(&loads).map(|(moved, load)| (*moved, load * times)).collect();
+            self.next_to((inputs, beyond.end.load * times), &contacts, means)
+        };
+        let Some((own, inner)) = next_to_end(1.0)?.zip(next_to_end(beyond.inwards)?) else { return Ok(None) };
+        let ends = own.into_iter().zip(inner).map(|(own, inner)| End::of(own, &inner, beyond.inwards));
+        let ends: Vec<End> = ends.collect::<Result<_, _>>()?;
+        let outputs = ends.iter().map(|end| beyond.outputs(end, inputs.approach_m, kind)).collect();
+        Ok(Some(means.of(outputs, size)))
+    }
+
+    /// Returns the outputs of contacts next to one; `None` if the equations cannot be linearised, or if a solution does
+    /// not converge.
+    fn next_to(
+        &mut self,
+        (inputs, load): (&Inputs, f64),
+        contacts: &[Contact],
+        means: Means,
+    ) -> Result<Option<Vec<Outputs>>, CoupledError> {
+        let requests = contacts.iter().map(|(inputs, load)| self.request(inputs, *load));
+        let requests: Vec<Request> = requests.collect::<Result<_, _>>()?;
+        let [before, after] = match (means, &requests[..]) {
+            (Means::Linearised, [before, after]) => [before, after],
+            _ => return self.finely(&requests),
+        };
+        let point = self.request(inputs, load)?.point;
+        let Some(base) = self.base(&point)? else { return Ok(None) };
+        let Some(solutions) = self.online.beside(&base, &[before.point, after.point])? else { return Ok(None) };
+        let outputs = [before, after].into_iter().zip(solutions);
+        let outputs =
+            outputs.map(|(request, solution)| Ok(Outputs::of(answer_of(request, &self.online, solution)?.result)));
+        outputs.collect()
+    }
+
+    /// Returns the outputs of converged solutions.
+    fn finely(&mut self, requests: &[Request]) -> Result<Option<Vec<Outputs>>, CoupledError> {
+        let Self { neighbourhood, model, .. } = self;
+        let options = ReducedOptions { tolerance: TOLERANCE, ..ReducedOptions::default() };
+        let fine = neighbourhood.fine.get_or_insert_with(|| Online::new(Arc::clone(model), options));
+        let solved = |request: &Request| {
+            fine.forget();
+            let result = answer(request, Solver::Reduced(fine), &())?.result;
+            Ok(Outputs::of(result))
+        };
+        requests.iter().map(solved).collect()
+    }
+
+    /// Returns the solution of a contact; `None` if it does not converge.
+    fn base(&mut self, point: &OperatingPoint) -> Result<Option<ReducedSolution>, CoupledError> {
+        if let Some((known, solved)) = &self.neighbourhood.base
+            && known == point
+        {
+            return Ok(Some(solved.clone()));
+        }
+        self.online.forget();
+        match self.online.solve(point, self.lubricant) {
+            Ok(solved) => {
+                self.neighbourhood.base = Some((*point, solved.clone()));
+                Ok(Some(solved))
+            }
+            Err(why) if why.without_solution().is_some() => Ok(None),
+            Err(why) => Err(why.into()),
+        }
+    }
+}
+
+/// Returns true if both select the same input.
+fn selects(by: Input, own: Input) -> bool {
+    let mut probe = Inputs::NONE;
+    *by(&mut probe) = 1.0;
+    *own(&mut probe) == 1.0
+}
