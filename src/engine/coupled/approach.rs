@@ -114,6 +114,7 @@ impl End {
         outputs.half_width_m *= dry;
         outputs.hertz_pressure_pa *= dry;
         outputs.approach_m = wanted;
+        outputs.film_ratio_min += film * outputs.film_ratio_min / outputs.h_min_m;
         outputs.h_c_m += film;
         outputs.h_min_m += film;
         outputs.error_bounds = [f64::NAN; 3];
@@ -190,8 +191,8 @@ impl Coupled {
         let [low, high] = [range.0, range.1].map(|m| given.load * m / own);
         let load = |k: f64| low * (high / low).powf(k / LOOKED_UP as f64);
         let trained = |k: f64| {
-            let problem =
-                self.request(given, load(k)).ok().and_then(|request| Problem::new(&request.point, self.lubricant).ok());
+            let problem = self.request(given, load(k)).ok();
+            let problem = problem.and_then(|request| Problem::new(&request.point, request.lubricant).ok());
             problem.is_some_and(|problem| self.model.trust(&problem) == Trust::Trained)
         };
         let inside: Vec<bool> = (0..=LOOKED_UP).map(|k| trained(k as f64)).collect();

@@ -11,7 +11,7 @@ use super::approach::{Beyond, End};
 use super::{Coupled, CoupledError, Inputs, Outputs, Pressed};
 use crate::engine::answer::{Solver, answer, answer_of};
 use crate::scene::Request;
-use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::full::Problem;
 use crate::solver::reduced::{Online, ReducedOptions, ReducedSolution};
 use std::sync::Arc;
 
@@ -109,7 +109,7 @@ type Contact = (Inputs, f64);
 #[derive(Default)]
 pub(super) struct Neighbourhood {
     /// Last solution whose equations were linearised.
-    base: Option<(OperatingPoint, ReducedSolution)>,
+    base: Option<(Request, ReducedSolution)>,
     /// Solver with the smaller tolerance.
     fine: Option<Online>,
 }
@@ -226,9 +226,10 @@ impl Coupled {
             (Means::Linearised, [before, after]) => [before, after],
             _ => return self.finely(&requests),
         };
-        let point = self.request(inputs, load)?.point;
-        let Some(base) = self.base(&point)? else { return Ok(None) };
-        let Some(solutions) = self.online.beside(&base, &[before.point, after.point])? else { return Ok(None) };
+        let own = self.request(inputs, load)?;
+        let Some(base) = self.base(&own)? else { return Ok(None) };
+        let problem = |request: &Request| Problem::new(&request.point, request.lubricant);
+        let Some(solutions) = self.online.beside(&base, &[problem(before)?, problem(after)?])? else { return Ok(None) };
         let outputs = [before, after].into_iter().zip(solutions);
         let outputs =
             outputs.map(|(request, solution)| Ok(Outputs::of(answer_of(request, &self.online, solution)?.result)));
@@ -249,16 +250,16 @@ impl Coupled {
     }
 
     /// Returns the solution of a contact; `None` if it does not converge.
-    fn base(&mut self, point: &OperatingPoint) -> Result<Option<ReducedSolution>, CoupledError> {
+    fn base(&mut self, request: &Request) -> Result<Option<ReducedSolution>, CoupledError> {
         if let Some((known, solved)) = &self.neighbourhood.base
-            && known == point
+            && known == request
         {
             return Ok(Some(solved.clone()));
         }
         self.online.forget();
-        match self.online.solve(point, self.lubricant) {
+        match self.online.solve(&request.point, request.lubricant) {
             Ok(solved) => {
-                self.neighbourhood.base = Some((*point, solved.clone()));
+                self.neighbourhood.base = Some((request.clone(), solved.clone()));
                 Ok(Some(solved))
             }
             Err(why) if why.without_solution().is_some() => Ok(None),

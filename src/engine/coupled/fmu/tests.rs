@@ -127,16 +127,16 @@ fn descriptions_contain_every_variable_and_identity() {
     let bytes = &*bytes_of("point").unwrap();
     for pressed in [Pressed::Load, Pressed::Approach] {
         let [text, newer] = [FmiVersion::Two, FmiVersion::Three].map(|version| described("point", pressed, version));
-        // All variables except the reference distance that only line contacts have.
-        assert_eq!(text.matches("<ScalarVariable ").count(), REALS.len() - 1 + TRUTHS.len());
-        assert_eq!(newer.matches("<Float64 ").count(), REALS.len());
+        // All variables except the reference distance of line contacts and the three variables of rough surfaces.
+        assert_eq!(text.matches("<ScalarVariable ").count(), REALS.len() - 4 + TRUTHS.len());
+        assert_eq!(newer.matches("<Float64 ").count(), REALS.len() - 4 + 1);
         assert_eq!(newer.matches("<Boolean ").count(), TRUTHS.len());
         let own = identity(bytes, pressed);
         assert!(text.contains(&format!("guid=\"{own}\"")) && newer.contains(&format!("instantiationToken=\"{own}\"")));
         assert_eq!(pressed_of(&own, bytes), Some(pressed));
     }
     assert_eq!(pressed_of("load-0000000000000000", bytes), None);
-    let text = described("line", Pressed::Approach, FmiVersion::Two);
+    let text = described("line_rough", Pressed::Approach, FmiVersion::Two);
     assert_eq!(text.matches("<ScalarVariable ").count(), REALS.len() + TRUTHS.len());
 }
 
@@ -148,7 +148,7 @@ fn values<'a>(text: &'a str, attribute: &'a str) -> Vec<&'a str> {
 
 #[test]
 fn value_references_of_fmi_3_are_unique_over_types() {
-    let text = described("line", Pressed::Load, FmiVersion::Three);
+    let text = described("line_rough", Pressed::Load, FmiVersion::Three);
     let (variables, structure) = text.split_once("<ModelStructure>").unwrap();
     let references = values(variables, "valueReference");
     let unique: HashSet<&str> = references.iter().copied().collect();

@@ -56,8 +56,11 @@ const fn follows(name: &'static str, unit: [&'static str; 2], output: Output, ab
 /// Name of the reference distance for the approach of a line contact.
 const APPROACH_REFERENCE: &str = "approach_reference";
 
+/// Name of the roughness.
+const ROUGHNESS: &str = Field::Roughness.facts().variable;
+
 /// All real variables.
-pub const REALS: [Real; 19] = [
+pub const REALS: [Real; 22] = [
     given(Field::Radius, Role::Input, |i| &mut i.radius_m),
     given(Field::Speed, Role::Input, |i| &mut i.speed_m_per_s),
     given(Field::Srr, Role::Input, |i| &mut i.slide_to_roll_ratio),
@@ -110,6 +113,14 @@ pub const REALS: [Real; 19] = [
         |o| o.approach_reference_m,
         "distance from a line contact at which approach is measured: its radius",
     ),
+    given(Field::Roughness, Role::Parameter, |i| &mut i.roughness_m),
+    follows(
+        names::MIXED_FILM_RATIO_MIN,
+        [""; 2],
+        |o| o.film_ratio_min,
+        "film ratio: minimum film thickness over roughness; may be negative",
+    ),
+    follows(names::MIXED_LOAD_SHARE, [""; 2], |o| o.asperity_load_share, "share of the load that asperities carry"),
 ];
 
 /// Boolean output: name, description, and getter.
@@ -137,7 +148,9 @@ impl Real {
 
     /// Returns the causality in the unit of a model; `None` if the unit does not have the variable.
     pub fn role(&self, model: &SavedModel, pressed: Pressed) -> Option<Role> {
+        let rough = matches!(model, SavedModel::Stationary(model) if model.domain.is_rough());
         match (self.name, model) {
+            (ROUGHNESS | names::MIXED_FILM_RATIO_MIN | names::MIXED_LOAD_SHARE, _) if !rough => None,
             (APPROACH_REFERENCE, SavedModel::InTime(model)) if model.window.grid.kind() == ContactKind::Point => None,
             // A transient model is of one contact. Its inputs are those that vary in its trainings.
             ("load" | names::SRR, SavedModel::InTime(_)) => Some(Role::Input),

@@ -3,7 +3,6 @@
 use super::attempt::{Found, case_of};
 use super::{Online, ReducedError};
 use crate::solver::full::Problem;
-use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::ReducedSolution;
 use crate::solver::reduced::operators::{Start, Stop};
 use std::sync::Arc;
@@ -17,23 +16,23 @@ impl Online {
     /// models are blended in, or if an iteration fails.
     ///
     /// # Errors
-    /// [`ReducedError`] if a point is refused or if the solution belongs to another model.
+    /// [`ReducedError`] if a contact is refused or if the solution belongs to another model.
     pub fn beside(
         &mut self,
         solved: &ReducedSolution,
-        points: &[OperatingPoint; 2],
+        ends: &[Problem; 2],
     ) -> Result<Option<[ReducedSolution; 2]>, ReducedError> {
-        let Some([mut before, mut after]) = self.beside_in_window(solved, solved.own_h_0(), points)? else {
+        let Some([mut before, mut after]) = self.beside_in_window(solved, solved.own_h_0(), ends)? else {
             return Ok(None);
         };
-        let shares = points.each_ref().map(|point| self.model.blended(point.moes()));
+        let shares = ends.each_ref().map(|end| self.model.blended(end.moes));
         if shares.iter().any(|shares| shares.len() != solved.beside.len()) {
             return Ok(None);
         }
         let [of_before, of_after] = shares;
         for (((_, other), first), last) in solved.beside.iter().zip(of_before).zip(of_after) {
             let same = first.1 == other.window && last.1 == other.window;
-            let others = if same { self.beside_in_window(other, other.h_0, points)? } else { None };
+            let others = if same { self.beside_in_window(other, other.h_0, ends)? } else { None };
             let Some([other_before, other_after]) = others else { return Ok(None) };
             before.beside.push((first.0, other_before));
             after.beside.push((last.0, other_after));
@@ -48,10 +47,9 @@ impl Online {
         &mut self,
         solved: &ReducedSolution,
         h_0: f64,
-        points: &[OperatingPoint; 2],
+        ends: &[Problem; 2],
     ) -> Result<Option<[ReducedSolution; 2]>, ReducedError> {
-        let problem = |point: &OperatingPoint| Problem::new(point, solved.lubricant);
-        let (at, ends) = (problem(&solved.point)?, [problem(&points[0])?, problem(&points[1])?]);
+        let at = Problem::new(&solved.point, solved.lubricant)?;
         let same_shape = |end: &Problem| end.point.ellipse() == at.point.ellipse();
         if at.heat.is_some() || !ends.iter().all(same_shape) {
             return Ok(None);
@@ -88,7 +86,7 @@ impl Online {
             let (traction, fronts) = (readings.traction, readings.fronts.clone());
             Found { coefficients, h_0, h_c, iterations: solved.iterations, residual, traction, fronts, heat: None }
         });
-        let mut moved = found.into_iter().zip(&ends).map(|(found, problem)| {
+        let mut moved = found.into_iter().zip(ends).map(|(found, problem)| {
             let own = self.solution_of(problem, solved.window, found);
             let error = own.error.filter(|_| !solved.by_neighbour);
             ReducedSolution { error, by_neighbour: solved.by_neighbour, ..own }
