@@ -1,11 +1,18 @@
 """Instances of Functional Mock-up Units of both versions of the standard, imported by FMPy, with variables by name."""
 
+import xml.etree.ElementTree as xml
+
 import fmpy
 from fmpy.fmi2 import FMU2Slave, calloc, fmi2CallbackAllocateMemoryTYPE, fmi2CallbackFreeMemoryTYPE
 from fmpy.fmi2 import fmi2CallbackFunctions, fmi2CallbackLoggerTYPE, free
 from fmpy.fmi3 import FMU3Slave
 
 DISCARD = 2
+
+
+def flags(path):
+    """Attributes of co-simulation in the model description of a unit, which FMPy does not read completely."""
+    return xml.parse(path.with_suffix("") / "modelDescription.xml").find("CoSimulation").attrib
 
 
 class Unit:
