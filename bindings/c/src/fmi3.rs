@@ -146,7 +146,13 @@ pub unsafe extern "C" fn fmi3SetFloat64(
     values: *const f64,
     size: usize,
 ) -> c_int {
-    unsafe { set_reals(instance, slice(references, count), slice(values, size)) }
+    unsafe {
+        let (references, values) = (slice(references, count), slice(values, size));
+        match check_scalars(references, values.len()) {
+            Ok(()) => set_reals(instance, references, values),
+            Err(Refused(sentence)) => refuse(instance, &sentence),
+        }
+    }
 }
 
 #[unsafe(no_mangle)]

@@ -286,7 +286,7 @@ impl Instance {
     fn unknowns(&self, references: &[c_uint]) -> Result<Vec<Output>, Refused> {
         let output = |reference: &c_uint| {
             let (real, role) = self.variable(*reference)?;
-            Ok(real.output(role).ok_or_else(|| format!("`{}` is an input and has no derivative", real.name))?)
+            Ok(real.output(role).ok_or_else(|| format!("`{}` is no output; derivatives are those of outputs", real.name))?)
         };
         references.iter().map(output).collect()
     }
@@ -295,7 +295,7 @@ impl Instance {
     fn derivative(&mut self, known: c_uint) -> Result<Derivative, Refused> {
         let (real, role) = self.variable(known)?;
         let by = real.input(role).ok_or_else(|| {
-            format!("`{}` is an output, but derivatives are those by inputs and parameters", real.name)
+            format!("`{}` is an output; derivatives are those by inputs and parameters", real.name)
         })?;
         self.follow()?;
         match (&mut self.unit.contact, &self.state.outputs) {

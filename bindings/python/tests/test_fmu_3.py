@@ -85,6 +85,7 @@ def test_what_units_do_not_have_is_refused_in_a_sentence(units):
         (lambda: slave.getNumberOfVariableDependencies(film), "model description"),
         (lambda: slave.getOutputDerivatives([film], [1]), "derivatives of outputs by the time"),
         (lambda: slave.getFloat64([film], nValues=2), "1 scalar variables, but 2 values"),
+        (lambda: slave.setFloat64([film], [1.0, 2.0]), "1 scalar variables, but 2 values"),
         (lambda: slave.setFloat64([unit.references["time"]], [1.0]), "no real variable"),
     ]:
         with pytest.raises(FMICallException) as raised:

@@ -96,7 +96,7 @@ def test_derivatives_that_do_not_exist_are_refused_in_a_sentence(version, units)
     unit = Unit(units("line", version=version)).start()
     film, load, trained = (unit.references[name] for name in ["h_c_m", "load", "reduced.trained"])
     for unknowns, knowns, part in [
-        ([load], [load], "`load` is an input"),
+        ([load], [load], "`load` is no output"),
         ([film], [film], "`h_c_m` is an output"),
         ([99], [load], "no real variable 99"),
         ([film], [98], "no real variable 98"),

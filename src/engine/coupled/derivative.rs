@@ -274,3 +274,121 @@ fn selects(by: Input, own: Input) -> bool {
     *by(&mut probe) = 1.0;
     *own(&mut probe) == 1.0
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::embedded;
+
+    /// Inputs of units under a load, and at an approach.
+    const LOADED: [Input; 6] = [
+        |i| &mut i.radius_m,
+        |i| &mut i.speed_m_per_s,
+        |i| &mut i.slide_to_roll_ratio,
+        |i| &mut i.load,
+        |i| &mut i.modulus_pa,
+        |i| &mut i.viscosity_pa_s,
+    ];
+    const APPROACHED: [Input; 3] = [|i| &mut i.radius_m, |i| &mut i.speed_m_per_s, |i| &mut i.approach_m];
+
+    const OUTPUTS: [fn(&Outputs) -> f64; 7] = [
+        |o| o.load,
+        |o| o.approach_m,
+        |o| o.half_width_m,
+        |o| o.h_c_m,
+        |o| o.h_min_m,
+        |o| o.friction_force,
+        |o| o.hertz_pressure_pa,
+    ];
+
+    fn unit(which: &str, pressed: Pressed) -> (Coupled, Inputs) {
+        let model = embedded(which).unwrap();
+        let inputs = Coupled::first_inputs(&model).unwrap();
+        (Coupled::new(model, pressed).unwrap(), Inputs { slide_to_roll_ratio: 0.05, ..inputs })
+    }
+
+    /// Returns the largest difference between derivatives and fourth-order differences of solutions, relative to the
+    /// output over the input. Also returns whether all derivatives are those of linearised equations.
+    fn deviation(unit: &mut Coupled, inputs: &Inputs, by: &[Input], step: f64) -> (f64, bool) {
+        let outputs = unit.solve(inputs).unwrap();
+        let (mut largest, mut linearised) = (0.0f64, true);
+        for input in by {
+            let own = unit.derivative(inputs, &outputs, *input).unwrap();
+            linearised &= own.linearised;
+            let size = input(&mut inputs.clone()).abs();
+            let mut at = |times: f64| {
+                let mut moved = *inputs;
+                *input(&mut moved) += times * step * size;
+                unit.solve(&moved).unwrap()
+            };
+            let near = [-2.0, -1.0, 1.0, 2.0].map(&mut at);
+            for output in OUTPUTS {
+                let [a, b, c, d] = near.each_ref().map(output);
+                let wanted = (8.0 * (c - b) - (d - a)) / (12.0 * step);
+                let deviation = (own.of(output) * size - wanted) / output(&outputs).abs();
+                largest = largest.max(deviation.abs());
+            }
+        }
+        (largest, linearised)
+    }
+
+    #[test]
+    fn derivatives_under_a_load_match_differences_of_solutions() {
+        for which in ["line", "point", "line_shear", "ellipse"] {
+            let (mut unit, inputs) = unit(which, Pressed::Load);
+            let (deviation, linearised) = deviation(&mut unit, &inputs, &LOADED, 2e-3);
+            assert!(linearised && deviation < 1e-5, "{which}: {deviation:e}, linearised: {linearised}");
+        }
+    }
+
+    #[test]
+    fn derivatives_at_an_approach_match_differences_of_solutions() {
+        for which in ["line", "point"] {
+            // A gap that opens, the middle of the trained range, and a load beyond it.
+            for place in [-0.5, 1.0, 8.0] {
+                let (mut unit, inputs) = unit(which, Pressed::Approach);
+                let inputs = Inputs { approach_m: place * inputs.approach_m, ..inputs };
+                let (deviation, linearised) = deviation(&mut unit, &inputs, &APPROACHED, 2e-3);
+                assert!(linearised && deviation < 1e-5, "{which} at {place}: {deviation:e}");
+            }
+        }
+    }
+
+    #[test]
+    fn rough_contacts_have_a_derivative_by_their_roughness() {
+        let (mut unit, inputs) = unit("line_rough", Pressed::Load);
+        let by: [Input; 3] = [|i| &mut i.roughness_m, |i| &mut i.speed_m_per_s, |i| &mut i.load];
+        let (deviation, linearised) = deviation(&mut unit, &inputs, &by, 2e-3);
+        assert!(linearised && deviation < 1e-5, "{deviation:e}");
+        let outputs = unit.solve(&inputs).unwrap();
+        let share = unit.derivative(&inputs, &outputs, by[0]).unwrap().of(|outputs| outputs.asperity_load_share);
+        assert!(share > 0.0, "rougher surfaces carry more: {share:e}");
+    }
+
+    #[test]
+    fn thermal_contacts_and_radius_ratios_use_differences() {
+        let (mut warm, inputs) = unit("line_heat", Pressed::Load);
+        let outputs = warm.solve(&inputs).unwrap();
+        let by_speed = warm.derivative(&inputs, &outputs, |i| &mut i.speed_m_per_s).unwrap();
+        assert!(!by_speed.linearised && by_speed.of(|outputs| outputs.h_c_m) > 0.0);
+        let (mut unit, inputs) = unit("ellipse", Pressed::Load);
+        let inputs = Inputs { radius_ratio: 2.0, ..inputs };
+        let outputs = unit.solve(&inputs).unwrap();
+        let by_ratio = unit.derivative(&inputs, &outputs, |i| &mut i.radius_ratio).unwrap();
+        assert!(!by_ratio.linearised && by_ratio.of(|outputs| outputs.h_c_m).is_finite());
+    }
+
+    #[test]
+    fn tractions_have_a_derivative_without_sliding() {
+        let (mut unit, inputs) = unit("line_shear", Pressed::Load);
+        let at_rest = Inputs { slide_to_roll_ratio: 0.0, ..inputs };
+        let outputs = unit.solve(&at_rest).unwrap();
+        let by: Input = |i| &mut i.slide_to_roll_ratio;
+        let derivative = unit.derivative(&at_rest, &outputs, by).unwrap();
+        let little = unit.solve(&Inputs { slide_to_roll_ratio: 1e-8, ..inputs }).unwrap();
+        let wanted = little.friction_coefficient / 1e-8;
+        let own = derivative.of(|outputs| outputs.friction_coefficient);
+        assert!((own / wanted - 1.0).abs() < 1e-3, "{own:e} against {wanted:e}");
+        assert!(derivative.of(|outputs| outputs.h_c_m).abs() < 1e-6 * outputs.h_c_m);
+    }
+}
