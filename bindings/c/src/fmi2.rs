@@ -295,7 +295,6 @@ pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
         })
     }
 }
-}
 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetRealInputDerivatives(

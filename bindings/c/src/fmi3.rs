@@ -62,8 +62,7 @@ pub unsafe extern "C" fn fmi3InstantiateCoSimulation(
     _intermediate_update: *const c_void,
 ) -> *mut c_void {
     // SAFETY: strings belong to the simulation and are used only within this call.
-    let (log, token, resources) =
-        unsafe { (log_of(name, environment, logger), text_of(token), text_of(resources)) };
+    let (log, token, resources) = unsafe { (log_of(name, environment, logger), text_of(token), text_of(resources)) };
     instantiate(log, token, || {
         if event_mode {
             return Err("this unit has no event mode".into());

@@ -4,7 +4,9 @@ use crate::border::Refused;
 use crate::log::{Log, OK, WARNING};
 use crate::state::{Kept, State};
 use ehl_explorer::engine::SavedModel;
-use ehl_explorer::engine::coupled::fmu::{MODEL, Output, REALS, Real, Role, TRUTHS, first_inputs, identity, pressed_of};
+use ehl_explorer::engine::coupled::fmu::{
+    MODEL, Output, REALS, Real, Role, TRUTHS, first_inputs, identity, pressed_of,
+};
 use ehl_explorer::engine::coupled::{Coupled, Derivative, InTime, Inputs, Outputs, Pressed};
 use ehl_explorer::solver::reduced::ReducedModel;
 use ehl_explorer::solver::reduced::transient::TrajectoryModel;
@@ -286,7 +288,9 @@ impl Instance {
     fn unknowns(&self, references: &[c_uint]) -> Result<Vec<Output>, Refused> {
         let output = |reference: &c_uint| {
             let (real, role) = self.variable(*reference)?;
-            Ok(real.output(role).ok_or_else(|| format!("`{}` is no output; derivatives are those of outputs", real.name))?)
+            Ok(real
+                .output(role)
+                .ok_or_else(|| format!("`{}` is no output; derivatives are those of outputs", real.name))?)
         };
         references.iter().map(output).collect()
     }
@@ -294,14 +298,12 @@ impl Instance {
     /// Returns the derivative of the outputs by an input or a parameter.
     fn derivative(&mut self, known: c_uint) -> Result<Derivative, Refused> {
         let (real, role) = self.variable(known)?;
-        let by = real.input(role).ok_or_else(|| {
-            format!("`{}` is an output; derivatives are those by inputs and parameters", real.name)
-        })?;
+        let by = real
+            .input(role)
+            .ok_or_else(|| format!("`{}` is an output; derivatives are those by inputs and parameters", real.name))?;
         self.follow()?;
         match (&mut self.unit.contact, &self.state.outputs) {
-            (Contact::Stationary(contact), Some(outputs)) => {
-                Ok(contact.derivative(&self.state.inputs, outputs, by)?)
-            }
+            (Contact::Stationary(contact), Some(outputs)) => Ok(contact.derivative(&self.state.inputs, outputs, by)?),
             _ => Err("a transient unit provides no derivatives".into()),
         }
     }

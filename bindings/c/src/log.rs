@@ -22,8 +22,7 @@ pub type Logger2 = unsafe extern "C" fn(
 );
 
 /// `fmi3LogMessageCallback`.
-pub type Logger3 =
-    unsafe extern "C" fn(*mut c_void, status: c_int, category: *const c_char, message: *const c_char);
+pub type Logger3 = unsafe extern "C" fn(*mut c_void, status: c_int, category: *const c_char, message: *const c_char);
 
 /// Logger of the simulation.
 #[derive(Clone, Copy)]
