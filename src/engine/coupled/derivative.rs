@@ -5,15 +5,16 @@
 //! derivative is the central difference of these outputs.
 //!
 //! Thermal models, models by residual minimisation and changes of the radius ratio have no such equations. Their
-//! derivatives are fourth-order differences of four converged solutions, with a smaller tolerance of the iteration.
+//! derivatives are fourth-order differences of four converged solutions.
+//!
+//! In both cases the cavitation boundary stays where it is. Its motion between nodes changes outputs in small jumps.
 
 use super::approach::{Beyond, End};
 use super::{Coupled, CoupledError, Inputs, Outputs, Pressed};
-use crate::engine::answer::{Solver, answer, answer_of};
+use crate::engine::answer::answer_of;
 use crate::scene::Request;
 use crate::solver::full::Problem;
-use crate::solver::reduced::{Online, ReducedOptions, ReducedSolution};
-use std::sync::Arc;
+use crate::solver::reduced::ReducedSolution;
 
 /// Selects an input or a parameter.
 pub type Input = fn(&mut Inputs) -> &mut f64;
@@ -25,9 +26,6 @@ const NEAR: f64 = 2e-5;
 const FAR: f64 = 1e-3;
 /// Change of an input of zero. Tractions are linear in the slide-to-roll ratio only for very small ratios.
 const FROM_ZERO: f64 = 1e-9;
-
-/// Tolerance of the solutions for differences.
-const TOLERANCE: f64 = 1e-9;
 
 /// Method of a derivative.
 #[derive(Clone, Copy, PartialEq)]
@@ -110,8 +108,6 @@ type Contact = (Inputs, f64);
 pub(super) struct Neighbourhood {
     /// Last solution whose equations were linearised.
     base: Option<(Request, ReducedSolution)>,
-    /// Solver with the smaller tolerance.
-    fine: Option<Online>,
 }
 
 impl Coupled {
@@ -220,33 +216,26 @@ impl Coupled {
         contacts: &[Contact],
         means: Means,
     ) -> Result<Option<Vec<Outputs>>, CoupledError> {
-        let requests = contacts.iter().map(|(inputs, load)| self.request(inputs, *load));
-        let requests: Vec<Request> = requests.collect::<Result<_, _>>()?;
-        let [before, after] = match (means, &requests[..]) {
-            (Means::Linearised, [before, after]) => [before, after],
-            _ => return self.finely(&requests),
-        };
         let own = self.request(inputs, load)?;
         let Some(base) = self.base(&own)? else { return Ok(None) };
+        let requests = contacts.iter().map(|(inputs, load)| self.request(inputs, *load));
+        let requests: Vec<Request> = requests.collect::<Result<_, _>>()?;
         let problem = |request: &Request| Problem::new(&request.point, request.lubricant);
-        let Some(solutions) = self.online.beside(&base, &[problem(before)?, problem(after)?])? else { return Ok(None) };
-        let outputs = [before, after].into_iter().zip(solutions);
+        let solutions = match (means, &requests[..]) {
+            (Means::Linearised, [before, after]) => {
+                let solutions = self.online.beside(&base, &[problem(before)?, problem(after)?])?;
+                solutions.map(Vec::from)
+            }
+            _ => {
+                let mut solved = |request| Ok(self.online.solve_beside(&base, &problem(request)?)?);
+                requests.iter().map(&mut solved).collect::<Result<_, CoupledError>>()?
+            }
+        };
+        let Some(solutions) = solutions else { return Ok(None) };
+        let outputs = requests.iter().zip(solutions);
         let outputs =
             outputs.map(|(request, solution)| Ok(Outputs::of(answer_of(request, &self.online, solution)?.result)));
         outputs.collect()
-    }
-
-    /// Returns the outputs of converged solutions.
-    fn finely(&mut self, requests: &[Request]) -> Result<Option<Vec<Outputs>>, CoupledError> {
-        let Self { neighbourhood, model, .. } = self;
-        let options = ReducedOptions { tolerance: TOLERANCE, ..ReducedOptions::default() };
-        let fine = neighbourhood.fine.get_or_insert_with(|| Online::new(Arc::clone(model), options));
-        let solved = |request: &Request| {
-            fine.forget();
-            let result = answer(request, Solver::Reduced(fine), &())?.result;
-            Ok(Outputs::of(result))
-        };
-        requests.iter().map(solved).collect()
     }
 
     /// Returns the solution of a contact; `None` if it does not converge.
@@ -336,7 +325,7 @@ mod tests {
     fn derivatives_under_a_load_match_differences_of_solutions() {
         for which in ["line", "point", "line_shear", "ellipse"] {
             let (mut unit, inputs) = unit(which, Pressed::Load);
-            let (deviation, linearised) = deviation(&mut unit, &inputs, &LOADED, 2e-3);
+            let (deviation, linearised) = deviation(&mut unit, &inputs, &LOADED, 3e-4);
             assert!(linearised && deviation < 1e-5, "{which}: {deviation:e}, linearised: {linearised}");
         }
     }
@@ -348,7 +337,7 @@ mod tests {
             for place in [-0.5, 1.0, 8.0] {
                 let (mut unit, inputs) = unit(which, Pressed::Approach);
                 let inputs = Inputs { approach_m: place * inputs.approach_m, ..inputs };
-                let (deviation, linearised) = deviation(&mut unit, &inputs, &APPROACHED, 2e-3);
+                let (deviation, linearised) = deviation(&mut unit, &inputs, &APPROACHED, 3e-4);
                 assert!(linearised && deviation < 1e-5, "{which} at {place}: {deviation:e}");
             }
         }
@@ -358,7 +347,7 @@ mod tests {
     fn rough_contacts_have_a_derivative_by_their_roughness() {
         let (mut unit, inputs) = unit("line_rough", Pressed::Load);
         let by: [Input; 3] = [|i| &mut i.roughness_m, |i| &mut i.speed_m_per_s, |i| &mut i.load];
-        let (deviation, linearised) = deviation(&mut unit, &inputs, &by, 2e-3);
+        let (deviation, linearised) = deviation(&mut unit, &inputs, &by, 3e-4);
         assert!(linearised && deviation < 1e-5, "{deviation:e}");
         let outputs = unit.solve(&inputs).unwrap();
         let share = unit.derivative(&inputs, &outputs, by[0]).unwrap().of(|outputs| outputs.asperity_load_share);
@@ -368,9 +357,8 @@ mod tests {
     #[test]
     fn thermal_contacts_and_radius_ratios_use_differences() {
         let (mut warm, inputs) = unit("line_heat", Pressed::Load);
-        let outputs = warm.solve(&inputs).unwrap();
-        let by_speed = warm.derivative(&inputs, &outputs, |i| &mut i.speed_m_per_s).unwrap();
-        assert!(!by_speed.linearised && by_speed.of(|outputs| outputs.h_c_m) > 0.0);
+        let (deviation, linearised) = deviation(&mut warm, &inputs, &LOADED[..4], 3e-4);
+        assert!(!linearised && deviation < 1e-5, "{deviation:e}");
         let (mut unit, inputs) = unit("ellipse", Pressed::Load);
         let inputs = Inputs { radius_ratio: 2.0, ..inputs };
         let outputs = unit.solve(&inputs).unwrap();

@@ -121,7 +121,7 @@ impl Online {
         lubricant: Lubricant,
         rows: RowObserver<'_>,
     ) -> Result<ReducedSolution, ReducedError> {
-        self.solved(point, lubricant, Watch { rows: Some(rows), wish: &() })
+        self.solved(point, lubricant, Watch { rows: Some(rows), ..Watch::of(&()) })
     }
 
     fn solved(
@@ -277,7 +277,7 @@ impl Online {
         self.prepare(&problem.point);
         let operators = self.windows.get_mut(index).and_then(OnceCell::get_mut).ok_or(ReducedError::Empty)?;
         let guess = start::carried(window, snapshot, point);
-        let watch = &mut Watch { rows: Some(observer), wish: &() };
+        let watch = &mut Watch { rows: Some(observer), ..Watch::of(&()) };
         let found = attempt(window, operators, &problem, &guess, usize::MAX, &self.options, watch)?;
         Ok(self.keep(&problem, index, found))
     }
@@ -298,7 +298,7 @@ impl Online {
         let point = domain.as_trained(&problem.point, &problem.lubricant);
         let knows_traction = domain.knows_traction(problem);
         let trust = self.model.trust(problem);
-        let as_measured = trust == Trust::Trained && self.options.as_measured();
+        let as_measured = trust == Trust::Trained && self.options == ReducedOptions::default();
         let mut solved = ReducedSolution {
             point: problem.point,
             lubricant: problem.lubricant,

@@ -44,17 +44,19 @@ fn share_of_tolerance(problem: &Problem, h_c: f64, options: &ReducedOptions) -> 
     if newtonian && options.starts == Starts::Explorer { (film / THICK).clamp(LEAST_SHARE, 1.0) } else { 1.0 }
 }
 
-/// Observers of an attempt: `rows` receives the sampled equations of every iterate, and `wish` is checked for
+/// Observers and conditions of an attempt: `rows` receives the sampled equations of every iterate, and `wish` is checked for
 /// cancellation before each attempt.
 pub(super) struct Watch<'a> {
     pub rows: Option<RowObserver<'a>>,
     pub wish: &'a dyn Observer,
+    /// True if the cavitation boundary stays where it is in the initial guess.
+    pub holds_front: bool,
 }
 
 impl<'a> Watch<'a> {
     /// Creates a watch without an observer of iterates.
     pub fn of(wish: &'a dyn Observer) -> Self {
-        Self { rows: None, wish }
+        Self { rows: None, wish, holds_front: false }
     }
 
     /// Returns the observer of rows for one iteration.
@@ -93,7 +95,7 @@ pub(super) fn attempt(
     let case = case_of(window, problem, options, Stop::new(tolerance, options.max_newton.min(limit)));
     let scale = case.scale;
     let Guess { coefficients: known, fronts, theta, .. } = start;
-    operators.begin(&case, &Start { window, modes: known.len(), fronts: Some(fronts), theta });
+    operators.begin(&case, &Start { window, modes: known.len(), fronts: Some(fronts), held: watch.holds_front, theta });
     operators.carry_load(problem, scale, &mut coefficients);
     operators.aim(window, scale);
     // H(0) = H₀ − ½ ln s + s δ(0).

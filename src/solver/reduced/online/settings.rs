@@ -139,12 +139,6 @@ impl Default for ReducedOptions {
 }
 
 impl ReducedOptions {
-    /// Returns true for the settings that calibrated errors were measured with, or with a smaller tolerance.
-    pub(super) fn as_measured(&self) -> bool {
-        let default = Self::default();
-        self.tolerance <= default.tolerance && Self { tolerance: default.tolerance, ..*self } == default
-    }
-
     /// Returns the dissertation's scheme: the state contains δ̃ with all stored modes, and the iteration starts from
     /// the nearest snapshot only.
     pub fn dissertation() -> Self {

@@ -1,13 +1,60 @@
 //! Solutions next to a known one, to first order, for derivatives.
 
-use super::attempt::{Found, case_of};
-use super::{Online, ReducedError};
+use super::attempt::{Found, Watch, attempt, case_of};
+use super::{Online, ReducedError, ReducedOptions};
 use crate::solver::full::Problem;
 use crate::solver::reduced::ReducedSolution;
 use crate::solver::reduced::operators::{Start, Stop};
+use crate::solver::reduced::start::Guess;
 use std::sync::Arc;
 
+/// Tolerance of solutions with the cavitation boundary of another one.
+const TOLERANCE: f64 = 1e-9;
+
+/// Returns the number of modes of a solution. Omitted modes have the coefficient zero.
+fn modes_of(solved: &ReducedSolution) -> usize {
+    solved.coefficients.iter().rposition(|value| *value != 0.0).map_or(1, |last| last + 1)
+}
+
 impl Online {
+    /// Returns the converged solution of a contact next to that of a solution, with the cavitation boundary and the
+    /// modes of this solution. `None` if the iteration fails, or if other local models are blended in.
+    ///
+    /// # Errors
+    /// [`ReducedError`] if the contact is refused or if the solution belongs to another model.
+    pub fn solve_beside(
+        &mut self,
+        solved: &ReducedSolution,
+        problem: &Problem,
+    ) -> Result<Option<ReducedSolution>, ReducedError> {
+        if !solved.beside.is_empty() {
+            return Ok(None);
+        }
+        self.prepare_window(solved.window);
+        let model = Arc::clone(&self.model);
+        let own = model.domain.as_solved(problem)?;
+        let (Some(window), Some(operators)) =
+            (model.windows.get(solved.window), self.windows.get_mut(solved.window).and_then(|cell| cell.get_mut()))
+        else {
+            return Err(ReducedError::Empty);
+        };
+        let mut coefficients = solved.coefficients.clone();
+        coefficients.truncate(modes_of(solved));
+        let theta = solved.heat.as_ref().map(|heat| heat.theta.clone()).unwrap_or_default();
+        let guess = Guess { coefficients, h_c: solved.h_c, fronts: solved.fronts.clone(), theta };
+        let options = ReducedOptions { tolerance: TOLERANCE, ..self.options };
+        let watch = &mut Watch { holds_front: true, ..Watch::of(&()) };
+        let found = attempt(window, operators, &own, &guess, usize::MAX, &options, watch).ok();
+        Ok(found.map(|found| self.solution_beside(problem, solved, found)))
+    }
+
+    /// Returns a solution of the local model of another one.
+    fn solution_beside(&self, problem: &Problem, beside: &ReducedSolution, found: Found) -> ReducedSolution {
+        let by_neighbour = beside.by_neighbour;
+        let own = self.solution_of(problem, beside.window, found);
+        ReducedSolution { error: own.error.filter(|_| !by_neighbour), by_neighbour, ..own }
+    }
+
     /// Returns the solutions of two contacts, to first order. The contacts lie on both sides of a solution's own one, at
     /// equal small distances. The difference of the solutions is that of the linearised sampled equations for the
     /// cavitation boundary of the given solution.
@@ -68,9 +115,8 @@ impl Online {
         }
         let case = |problem| case_of(window, problem, &self.options, Stop::default());
         let (middle, cases) = (case(&equations.0), equations.1.each_ref().map(case));
-        // Omitted modes have the coefficient zero.
-        let modes = solved.coefficients.iter().rposition(|value| *value != 0.0).map_or(1, |last| last + 1);
-        let start = Start { window, modes, fronts: Some(&solved.fronts), theta: &[] };
+        let modes = modes_of(solved);
+        let start = Start { window, modes, fronts: Some(&solved.fronts), held: true, theta: &[] };
         let mut state: Vec<f64> = solved.coefficients.iter().copied().chain([h_0]).collect();
         let Some(direction) = operators.tangent([&middle, &cases[0], &cases[1]], &start, &mut state) else {
             return Ok(None);
@@ -86,11 +132,8 @@ impl Online {
             let (traction, fronts) = (readings.traction, readings.fronts.clone());
             Found { coefficients, h_0, h_c, iterations: solved.iterations, residual, traction, fronts, heat: None }
         });
-        let mut moved = found.into_iter().zip(ends).map(|(found, problem)| {
-            let own = self.solution_of(problem, solved.window, found);
-            let error = own.error.filter(|_| !solved.by_neighbour);
-            ReducedSolution { error, by_neighbour: solved.by_neighbour, ..own }
-        });
-        Ok(moved.next().zip(moved.next()).map(|(before, after)| [before, after]))
+        let [before, after] = found;
+        let moved = |found: Found, problem: &Problem| self.solution_beside(problem, solved, found);
+        Ok(Some([moved(before, &ends[0]), moved(after, &ends[1])]))
     }
 }

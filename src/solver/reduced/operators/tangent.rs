@@ -17,8 +17,10 @@ const ROUNDED: f64 = 1e-14;
 /// Largest number of linear solves for one direction. One is enough with exact derivatives; others correct the
 /// deformation by nodes near the cavitation boundary.
 const CORRECTIONS: usize = 12;
-/// Relative correction at which the direction is exact enough.
+/// Correction at which the direction is exact enough, relative to it.
 const CORRECTED: f64 = 1e-7;
+/// Corrections of the size of rounding, and largest ones that need not shrink further, relative to the state.
+const NEGLIGIBLE: (f64, f64) = (1e-12, 2e-11);
 
 /// Pressure coefficients and rigid-body separation H₀, one after the other.
 type Unknowns = Vec<f64>;
@@ -53,17 +55,16 @@ impl Operators {
             let (to_before, to_after) = (step(before, -1.0)?, step(after, 1.0)?);
             let correction: Unknowns = to_after.iter().zip(&to_before).map(|(a, b)| 0.5 * (a - b)).collect();
             direction.iter_mut().zip(&correction).for_each(|(own, by)| *own += by);
-            let size = norm(&correction) / norm(&direction);
-            if size.is_nan() || size <= CORRECTED {
-                // Without any change both norms are zero.
-                break;
+            let (size, whole) = (norm(&correction), norm(state));
+            if size <= (CORRECTED * norm(&direction)).max(NEGLIGIBLE.0 * whole) {
+                return Some(direction);
             }
-            if size >= former {
-                return None;
+            if !(size < former) {
+                return (size <= NEGLIGIBLE.1 * whole).then_some(direction);
             }
             former = size;
         }
-        direction.iter().all(|value| value.is_finite()).then_some(direction)
+        None
     }
 
     /// Evaluates the residual e_f^I of a state, (3.15), with the cavitation boundary of [`Self::tangent`].
