@@ -12,8 +12,7 @@ use crate::component::{
     set_reals, set_start, set_state, state_size, with, write_state,
 };
 use crate::log::{Log, Logger, Logger2, OK};
-use ehl_explorer::engine::coupled::fmu::IDENTIFIER;
-use std::ffi::{CString, c_char, c_int, c_uint, c_void};
+use std::ffi::{c_char, c_int, c_uint, c_void};
 use std::path::PathBuf;
 
 /// `fmi2CoSimulation`.
@@ -86,12 +85,12 @@ pub unsafe extern "C" fn fmi2Instantiate(
     _logging: c_int,
 ) -> *mut c_void {
     // SAFETY: strings and callbacks belong to the simulation and are used only within this call.
-    let (name, guid, resources, callbacks) =
-        unsafe { (text_of(name), text_of(guid), text_of(resources), callbacks.as_ref()) };
+    let (guid, resources, callbacks) = unsafe { (text_of(guid), text_of(resources), callbacks.as_ref()) };
     let (logger, environment) =
         callbacks.map_or((None, std::ptr::null_mut()), |callbacks| (callbacks.logger, callbacks.environment));
-    let name = CString::new(name.unwrap_or(IDENTIFIER)).unwrap_or_default();
-    instantiate(Log { name, logger: logger.map(Logger::Two), environment }, guid, || {
+    // SAFETY: as above.
+    let log = unsafe { Log::new(name, logger.map(Logger::Two), environment) };
+    instantiate(log, guid, || {
         if kind != CO_SIMULATION {
             return Err("this unit is for co-simulation only".into());
         }

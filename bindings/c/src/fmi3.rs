@@ -18,8 +18,8 @@ use crate::component::{
 };
 use crate::instance::Instance;
 use crate::log::{Log, Logger, Logger3, OK};
-use ehl_explorer::engine::coupled::fmu::{FIRST_TRUTH, IDENTIFIER, TIME};
-use std::ffi::{CString, c_char, c_int, c_uint, c_void};
+use ehl_explorer::engine::coupled::fmu::{FIRST_TRUTH, TIME};
+use std::ffi::{c_char, c_int, c_uint, c_void};
 use std::path::PathBuf;
 
 #[unsafe(no_mangle)]
@@ -38,14 +38,6 @@ pub unsafe extern "C" fn fmi3SetDebugLogging(
     unsafe { accept(instance) }
 }
 
-/// Returns the log of an instance with this name.
-unsafe fn log_of(name: *const c_char, environment: *mut c_void, logger: Option<Logger3>) -> Log {
-    // SAFETY: the name belongs to the simulation and is used only within this call.
-    let name = unsafe { text_of(name) };
-    let name = CString::new(name.unwrap_or(IDENTIFIER)).unwrap_or_default();
-    Log { name, logger: logger.map(Logger::Three), environment }
-}
-
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3InstantiateCoSimulation(
     name: *const c_char,
@@ -62,7 +54,8 @@ pub unsafe extern "C" fn fmi3InstantiateCoSimulation(
     _intermediate_update: *const c_void,
 ) -> *mut c_void {
     // SAFETY: strings belong to the simulation and are used only within this call.
-    let (log, token, resources) = unsafe { (log_of(name, environment, logger), text_of(token), text_of(resources)) };
+    let (log, token, resources) =
+        unsafe { (Log::new(name, logger.map(Logger::Three), environment), text_of(token), text_of(resources)) };
     instantiate(log, token, || {
         if event_mode {
             return Err("this unit has no event mode".into());

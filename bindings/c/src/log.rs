@@ -1,5 +1,7 @@
 //! Messages to the simulation.
 
+use crate::border::text_of;
+use ehl_explorer::engine::coupled::fmu::IDENTIFIER;
 use std::ffi::{CString, c_char, c_int, c_void};
 
 /// Status of a call, with the same numbers in both versions of the standard.
@@ -34,14 +36,24 @@ pub enum Logger {
 /// Recipient of messages about one instance.
 pub struct Log {
     /// Name of the instance.
-    pub name: CString,
+    name: CString,
     /// `None` if the simulation has no logger.
-    pub logger: Option<Logger>,
+    logger: Option<Logger>,
     /// Pointer of the simulation, passed to the logger.
-    pub environment: *mut c_void,
+    environment: *mut c_void,
 }
 
 impl Log {
+    /// Returns the log of an instance with a name.
+    ///
+    /// # Safety
+    /// The name is null or ends with a zero; the logger accepts the environment.
+    pub unsafe fn new(name: *const c_char, logger: Option<Logger>, environment: *mut c_void) -> Self {
+        // SAFETY: guaranteed by the caller.
+        let name = unsafe { text_of(name) };
+        Self { name: CString::new(name.unwrap_or(IDENTIFIER)).unwrap_or_default(), logger, environment }
+    }
+
     /// Sends a message, and returns its status.
     pub fn say(&self, status: c_int, sentence: &str) -> c_int {
         let Some(logger) = self.logger else { return status };

@@ -1,8 +1,7 @@
 //! Functions for model exchange, scheduled execution, events and structural parameters, which units do not support.
 
-use super::log_of;
 use crate::component::{instantiate, refuse};
-use crate::log::Logger3;
+use crate::log::{Log, Logger, Logger3};
 use std::ffi::{c_char, c_int, c_uint, c_void};
 
 /// Reasons for a refusal.
@@ -21,7 +20,7 @@ pub unsafe extern "C" fn fmi3InstantiateModelExchange(
     logger: Option<Logger3>,
 ) -> *mut c_void {
     // SAFETY: the name belongs to the simulation.
-    let log = unsafe { log_of(name, environment, logger) };
+    let log = unsafe { Log::new(name, logger.map(Logger::Three), environment) };
     instantiate(log, None, || Err(KIND.into()))
 }
 
@@ -39,7 +38,7 @@ pub unsafe extern "C" fn fmi3InstantiateScheduledExecution(
     _unlock: *const c_void,
 ) -> *mut c_void {
     // SAFETY: the name belongs to the simulation.
-    let log = unsafe { log_of(name, environment, logger) };
+    let log = unsafe { Log::new(name, logger.map(Logger::Three), environment) };
     instantiate(log, None, || Err(KIND.into()))
 }
 
