@@ -84,7 +84,7 @@ def test_what_units_do_not_have_is_refused_in_a_sentence(units):
         (lambda: slave.enterEventMode(), "event mode"),
         (lambda: slave.enterConfigurationMode(), "structural parameters"),
         (lambda: slave.updateDiscreteStates(), "event mode"),
-        (lambda: slave.getNumberOfVariableDependencies(film), "model description"),
+        (lambda: slave.fmi3GetNumberOfVariableDependencies(slave.component, film, ctypes.byref(ctypes.c_size_t())), "model description"),
         (lambda: slave.getOutputDerivatives([film], [1]), "derivatives of outputs by the time"),
         (lambda: slave.getFloat64([film], nValues=2), "1 scalar variables, but 2 values"),
         (lambda: slave.setFloat64([film], [1.0, 2.0]), "1 scalar variables, but 2 values"),

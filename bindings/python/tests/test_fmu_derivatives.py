@@ -25,7 +25,7 @@ def solved(kind, given):
     return np.array([*films, result.p_h_pa, result.a_m, -depth * (result.H_0 + line)])
 
 
-def differences(outputs, given, name, step=3e-4):
+def differences(outputs, given, name, step=3e-5):
     """Central differences of fourth order."""
     at = lambda times: outputs({**given, name: given[name] * (1 + times * step)})
     return (8 * (at(1) - at(-1)) - (at(2) - at(-2))) / (12 * step * given[name])

@@ -325,7 +325,7 @@ mod tests {
     fn derivatives_under_a_load_match_differences_of_solutions() {
         for which in ["line", "point", "line_shear", "ellipse"] {
             let (mut unit, inputs) = unit(which, Pressed::Load);
-            let (deviation, linearised) = deviation(&mut unit, &inputs, &LOADED, 3e-4);
+            let (deviation, linearised) = deviation(&mut unit, &inputs, &LOADED, 3e-5);
             assert!(linearised && deviation < 1e-5, "{which}: {deviation:e}, linearised: {linearised}");
         }
     }
@@ -337,7 +337,7 @@ mod tests {
             for place in [-0.5, 1.0, 8.0] {
                 let (mut unit, inputs) = unit(which, Pressed::Approach);
                 let inputs = Inputs { approach_m: place * inputs.approach_m, ..inputs };
-                let (deviation, linearised) = deviation(&mut unit, &inputs, &APPROACHED, 3e-4);
+                let (deviation, linearised) = deviation(&mut unit, &inputs, &APPROACHED, 3e-5);
                 assert!(linearised && deviation < 1e-5, "{which} at {place}: {deviation:e}");
             }
         }
@@ -347,7 +347,7 @@ mod tests {
     fn rough_contacts_have_a_derivative_by_their_roughness() {
         let (mut unit, inputs) = unit("line_rough", Pressed::Load);
         let by: [Input; 3] = [|i| &mut i.roughness_m, |i| &mut i.speed_m_per_s, |i| &mut i.load];
-        let (deviation, linearised) = deviation(&mut unit, &inputs, &by, 3e-4);
+        let (deviation, linearised) = deviation(&mut unit, &inputs, &by, 3e-5);
         assert!(linearised && deviation < 1e-5, "{deviation:e}");
         let outputs = unit.solve(&inputs).unwrap();
         let share = unit.derivative(&inputs, &outputs, by[0]).unwrap().of(|outputs| outputs.asperity_load_share);
@@ -357,7 +357,7 @@ mod tests {
     #[test]
     fn thermal_contacts_and_radius_ratios_use_differences() {
         let (mut warm, inputs) = unit("line_heat", Pressed::Load);
-        let (deviation, linearised) = deviation(&mut warm, &inputs, &LOADED[..4], 3e-4);
+        let (deviation, linearised) = deviation(&mut warm, &inputs, &LOADED[..4], 3e-5);
         assert!(!linearised && deviation < 1e-5, "{deviation:e}");
         let (mut unit, inputs) = unit("ellipse", Pressed::Load);
         let inputs = Inputs { radius_ratio: 2.0, ..inputs };
