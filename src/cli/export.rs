@@ -3,6 +3,7 @@
 use super::failure::Failure;
 use super::output;
 use super::verdict::Verdict;
+use crate::engine::coupled::fmu::FmiVersion;
 use crate::engine::coupled::{Pressed, fmu};
 use crate::engine::{EngineError, SavedModel, bytes_of};
 use crate::scene::atomic_file;
@@ -10,11 +11,12 @@ use crate::scene::named_lubricant::{NamedLubricant, by_name};
 use crate::solver::physics::lubricant::Lubricant;
 use clap::{Args, Subcommand};
 use std::path::{Path, PathBuf};
+use std::str::FromStr;
 
 /// Subcommands of `export`.
 #[derive(Debug, Subcommand)]
 pub enum ExportCommand {
-    /// Functional Mock-up Unit for co-simulation (FMI 2.0); inputs are radius, speed, sliding and load, or the inputs
+    /// Functional Mock-up Unit for co-simulation (FMI 2.0 or 3.0); inputs are radius, speed, sliding and load, or the inputs
     /// that vary in a transient model
     Fmu(FmuArgs),
 }
@@ -28,6 +30,9 @@ pub struct FmuArgs {
     /// Output file
     #[arg(long, value_name = "FILE.fmu")]
     out: PathBuf,
+    /// Version of the FMI standard: 2 (FMI 2.0) or 3 (FMI 3.0)
+    #[arg(long = "fmi", value_name = "VERSION", default_value = "2", value_parser = FmiVersion::from_str)]
+    version: FmiVersion,
     /// Load as input (default)
     #[arg(long, conflicts_with = "approach")]
     load: bool,
@@ -62,11 +67,11 @@ pub fn run(command: &ExportCommand) -> Result<Verdict, Failure> {
     }
     let library = library(args.library.as_deref())?;
     let pressed = if args.approach { Pressed::Approach } else { Pressed::Load };
-    let archive =
-        fmu::archive(&model, content, pressed, library).map_err(|refused| Failure::Request(refused.to_string()))?;
+    let archive = fmu::archive(&model, content, pressed, args.version, library)
+        .map_err(|refused| Failure::Request(refused.to_string()))?;
     atomic_file::replace(&args.out, &archive)?;
     let megabytes = archive.len() as f64 / 1e6;
-    output::print(&format!("{}: {megabytes:.1} MB, for {}\n", args.out.display(), fmu::library_place()))?;
+    output::print(&format!("{}: {megabytes:.1} MB, for {}\n", args.out.display(), fmu::library_place(args.version)))?;
     Ok(Verdict::Done)
 }
 

@@ -10,7 +10,7 @@ use crate::solver::full::{ContactSolver, Problem, Start};
 use crate::solver::observer::Observer;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::Cavitation;
-use crate::solver::reduced::{Online, ReducedError, ReducedModel, Trust, Window};
+use crate::solver::reduced::{Online, ReducedError, ReducedModel, ReducedSolution, Trust, Window};
 use crate::solver::warning::Warning;
 
 /// Solver for a request, with the work space of its owner.
@@ -28,10 +28,24 @@ pub enum Solver<'a> {
 /// If the request is refused, or the observer cancels a reduced solve.
 pub fn answer(request: &Request, solver: Solver<'_>, observer: &dyn Observer) -> Result<Answer, EngineError> {
     let problem = Problem::new(&request.point, request.lubricant)?;
-    let mut answer = match solver {
+    let answer = match solver {
         Solver::Full(solver, start) => in_full(request, solver, start, observer)?,
         Solver::Reduced(online) => by_model(request, &problem, online, observer)?,
     };
+    Ok(with_warnings(&problem, answer))
+}
+
+/// Returns the answer for a solution that a reduced model has computed already.
+///
+/// # Errors
+/// If the request is refused, or if the solution is of another model.
+pub(super) fn answer_of(request: &Request, online: &Online, solved: ReducedSolution) -> Result<Answer, EngineError> {
+    let problem = Problem::new(&request.point, request.lubricant)?;
+    Ok(with_warnings(&problem, reconstructed(request, &problem, online, (Ok(solved), 0.0))?))
+}
+
+/// Adds the warnings that follow from the result.
+fn with_warnings(problem: &Problem, mut answer: Answer) -> Answer {
     let ContactResult { warnings, traction, scalars, reduced, mixed, .. } = &mut answer.result;
     if let Some(solution) = answer.solution.as_ref().filter(|_| scalars.is_some()) {
         warnings.extend(solution.grid_warning());
@@ -44,13 +58,13 @@ pub fn answer(request: &Request, solver: Solver<'_>, observer: &dyn Observer) ->
         let heat = solution.heat.as_deref().filter(|_| reduced.is_none());
         warnings.extend(heat.and_then(Temperatures::heat_lost));
     }
-    let hertz_pressure = request.point.hertz().pressure_pa;
+    let (hertz_pressure, modulus) = (answer.request.point.hertz().pressure_pa, answer.request.point.modulus_pa);
     warnings.extend(Warning::of_hertz_pressure(hertz_pressure));
-    warnings.extend(Warning::of_strain(hertz_pressure, request.point.modulus_pa));
+    warnings.extend(Warning::of_strain(hertz_pressure, modulus));
     let traction = mixed.map_or(*traction, |mixed| Some(mixed.fluid_traction));
     let doubt = traction.zip(*scalars).and_then(|(traction, scalars)| problem.doubts_traction(traction, &scalars));
     warnings.extend(doubt.map(Warning::from));
-    Ok(answer)
+    answer
 }
 
 fn in_full(
@@ -96,6 +110,16 @@ fn by_model(
     let clock = Stopwatch::start();
     let solved = online.solve_watched(&problem.point, request.lubricant, observer);
     let wall_s = clock.seconds();
+    reconstructed(request, problem, online, (solved, wall_s))
+}
+
+/// Returns the answer for the end of a reduced solve that took some seconds.
+fn reconstructed(
+    request: &Request,
+    problem: &Problem,
+    online: &Online,
+    (solved, wall_s): (Result<ReducedSolution, ReducedError>, f64),
+) -> Result<Answer, EngineError> {
     let model = &online.model;
     let (mut warnings, own) = (Vec::new(), model.domain.lubricant.cavitation);
     let trust = solved.as_ref().map_or_else(|_| model.trust(problem), |solved| solved.trust.clone());

@@ -5,9 +5,9 @@ use std::path::Path;
 use std::process::{Command, Output};
 
 /// Runs `export fmu` for an embedded model by a copy of the program in a separate folder, in an empty folder.
-fn export(program: &Path, folder: &Path, model: &str) -> Output {
+fn export(program: &Path, folder: &Path, model: &str, options: &[&str]) -> Output {
     let export = ["export", "fmu", model, "--out", "contact.fmu"];
-    Command::new(program).args(export).current_dir(folder).env_clear().output().unwrap()
+    Command::new(program).args(export).args(options).current_dir(folder).env_clear().output().unwrap()
 }
 
 #[test]
@@ -19,7 +19,7 @@ fn units_are_exported_by_an_installed_program() {
     let program = bin.join("ehl-explorer");
     std::fs::copy(env!("CARGO_BIN_EXE_ehl-explorer"), &program).unwrap();
 
-    let none = export(&program, &work, "line");
+    let none = export(&program, &work, "line", &[]);
     let said = String::from_utf8(none.stderr).unwrap();
     assert_eq!((none.status.code(), said.lines().count()), (Some(2), 1), "{said}");
     let [beside, installed] = [&bin, &lib].map(|folder| std::fs::canonicalize(folder).unwrap().display().to_string());
@@ -30,14 +30,20 @@ fn units_are_exported_by_an_installed_program() {
 
     let library = format!("{}ehl_contact{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
     std::fs::write(lib.join(library), "the library of the units").unwrap();
-    for model in ["line", "point", "line_in_time"] {
-        let done = export(&program, &work, model);
+    let versions: [(&[&str], &str); 3] =
+        [(&[], "fmiVersion=\"2.0\""), (&["--fmi", "2"], "fmiVersion=\"2.0\""), (&["--fmi", "3"], "fmiVersion=\"3.0\"")];
+    for (model, (options, version)) in [("line", versions[0]), ("point", versions[1]), ("line_in_time", versions[2])] {
+        let done = export(&program, &work, model, options);
         assert_eq!(done.status.code(), Some(0), "{}", String::from_utf8_lossy(&done.stderr));
         let unit = std::fs::read(work.join("contact.fmu")).unwrap();
-        for part in ["modelDescription.xml", "resources/model.rom", "the library of the units"] {
+        for part in ["modelDescription.xml", "resources/model.rom", "the library of the units", version] {
             assert!(unit.windows(part.len()).any(|bytes| bytes == part.as_bytes()), "{model}: {part}");
         }
     }
-    let unknown = export(&program, &work, "no_such_model");
+    let unknown = export(&program, &work, "no_such_model", &[]);
     assert_eq!(unknown.status.code(), Some(2));
+    let newer = export(&program, &work, "line", &["--fmi", "4"]);
+    let said = String::from_utf8(newer.stderr).unwrap();
+    assert_eq!((newer.status.code(), said.lines().count()), (Some(2), 1), "{said}");
+    assert!(said.contains("accepted are 2 and 3"), "{said}");
 }

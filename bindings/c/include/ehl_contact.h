@@ -69,6 +69,10 @@ typedef struct EhlInputs {
    Pressure-viscosity coefficient, 1/Pa. Ignored if the lubricant determines it.
    */
   double alpha;
+  /*
+   Composite rms roughness, m. Ignored if the model is of smooth surfaces.
+   */
+  double roughness;
 } EhlInputs;
 
 /*
@@ -123,6 +127,14 @@ typedef struct EhlOutputs {
    Reference distance for the approach of a line contact: its radius, m. NaN for a point contact.
    */
   double approach_reference;
+  /*
+   Minimum film thickness over roughness; NaN for smooth surfaces.
+   */
+  double film_ratio_min;
+  /*
+   Share of the load that asperities carry; NaN for smooth surfaces.
+   */
+  double asperity_load_share;
   /*
    1 if the contact is inside the trained range, else 0.
    */

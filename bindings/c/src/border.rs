@@ -43,3 +43,27 @@ pub unsafe fn write_message(buffer: *mut c_char, length: usize, message: &str) {
         buffer.add(end).write(0);
     }
 }
+
+/// Returns values passed by the simulation; empty if the pointer is null.
+///
+/// # Safety
+/// `pointer` is null or points to `length` values, which do not change as long as the result is used.
+pub unsafe fn slice<'a, T>(pointer: *const T, length: usize) -> &'a [T] {
+    if pointer.is_null() {
+        return &[];
+    }
+    // SAFETY: guaranteed by the caller.
+    unsafe { std::slice::from_raw_parts(pointer, length) }
+}
+
+/// Returns a place for values of the simulation; empty if the pointer is null.
+///
+/// # Safety
+/// `pointer` is null or points to `length` values, which only the result uses as long as it is used.
+pub unsafe fn slice_mut<'a, T>(pointer: *mut T, length: usize) -> &'a mut [T] {
+    if pointer.is_null() {
+        return &mut [];
+    }
+    // SAFETY: guaranteed by the caller.
+    unsafe { std::slice::from_raw_parts_mut(pointer, length) }
+}

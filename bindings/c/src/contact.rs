@@ -39,6 +39,8 @@ pub struct EhlInputs {
     pub viscosity: f64,
     /// Pressure-viscosity coefficient, 1/Pa. Ignored if the lubricant determines it.
     pub alpha: f64,
+    /// Composite rms roughness, m. Ignored if the model is of smooth surfaces.
+    pub roughness: f64,
 }
 
 /// Outputs of a contact.
@@ -69,6 +71,10 @@ pub struct EhlOutputs {
     pub hertz_a_m: f64,
     /// Reference distance for the approach of a line contact: its radius, m. NaN for a point contact.
     pub approach_reference: f64,
+    /// Minimum film thickness over roughness; NaN for smooth surfaces.
+    pub film_ratio_min: f64,
+    /// Share of the load that asperities carry; NaN for smooth surfaces.
+    pub asperity_load_share: f64,
     /// 1 if the contact is inside the trained range, else 0.
     pub trained: i32,
     /// 1 if the full solver was used, else 0.
@@ -87,6 +93,7 @@ impl From<EhlInputs> for Inputs {
             modulus_pa: given.modulus,
             viscosity_pa_s: given.viscosity,
             alpha_per_pa: given.alpha,
+            roughness_m: given.roughness,
         }
     }
 }
@@ -103,6 +110,7 @@ impl From<Inputs> for EhlInputs {
             modulus: own.modulus_pa,
             viscosity: own.viscosity_pa_s,
             alpha: own.alpha_per_pa,
+            roughness: own.roughness_m,
         }
     }
 }
@@ -123,6 +131,8 @@ impl From<&Outputs> for EhlOutputs {
             traction_error_bound,
             hertz_a_m: own.half_width_m,
             approach_reference: own.approach_reference_m,
+            film_ratio_min: own.film_ratio_min,
+            asperity_load_share: own.asperity_load_share,
             trained: i32::from(own.trained),
             full: i32::from(own.full),
         }

@@ -1,22 +1,32 @@
 //! Functions of FMI 2.0 for co-simulation. The standard defines their names and behaviour.
 //!
-//! An instance stores the inputs and the outputs of the last evaluation. [`State`] is its complete state, except for
-//! the model, which instances share, and for a transient contact. [`Kept`] includes the latter.
+//! What both versions of the standard have in common is in `component`, with what a simulation promises.
 
 #![allow(non_snake_case, reason = "the names are the standard's")]
 #![allow(clippy::missing_safety_doc, reason = "what a caller promises is in the standard, the same for all of them")]
 #![allow(missing_docs, reason = "the standard documents them")]
 
-use crate::border::{Refused, guarded, text_of};
-use crate::instance::{Contact, DISCARD, ERROR, FmiCallbacks, Instance, Kept, OK, State, TOLD, say, shared, truth};
-use ehl_explorer::engine::SavedModel;
-use ehl_explorer::engine::coupled::fmu::{IDENTIFIER, MODEL, REALS, first_inputs, pressed_of};
-use ehl_explorer::engine::coupled::{Coupled, InTime};
-use std::ffi::{CString, c_char, c_int, c_uint, c_void};
+use crate::border::{slice, slice_mut, text_of};
+use crate::component::{
+    accept, exit_initialisation, free, free_state, get_state, instantiate, none_of, read_state, refuse, reset,
+    set_reals, set_start, set_state, state_size, with, write_state,
+};
+use crate::log::{Log, Logger, Logger2, OK};
+use std::ffi::{c_char, c_int, c_uint, c_void};
 use std::path::PathBuf;
 
 /// `fmi2CoSimulation`.
 const CO_SIMULATION: c_int = 1;
+
+/// `fmi2CallbackFunctions`.
+#[repr(C)]
+pub struct FmiCallbacks {
+    logger: Option<Logger2>,
+    allocate_memory: *const c_void,
+    free_memory: *const c_void,
+    step_finished: *const c_void,
+    environment: *mut c_void,
+}
 
 /// Returns the folder that a file URI refers to.
 fn folder_of(uri: &str) -> Option<PathBuf> {
@@ -43,38 +53,6 @@ fn folder_of(uri: &str) -> Option<PathBuf> {
     Some(PathBuf::from(drive.unwrap_or(path)))
 }
 
-/// Calls a function with an instance. An error is logged, the instance is restored, and the status is "discard".
-unsafe fn with(component: *mut c_void, work: impl FnOnce(&mut Instance) -> Result<c_int, Refused>) -> c_int {
-    // SAFETY: a component is null or was made by `fmi2Instantiate`, and is used by one thread at a time.
-    let Some(instance) = (unsafe { component.cast::<Instance>().as_mut() }) else { return ERROR };
-    let before = instance.state.clone();
-    match guarded(|| work(instance)) {
-        Ok(status) => status,
-        Err(Refused(sentence)) => {
-            instance.state = before;
-            instance.say(DISCARD, &sentence)
-        }
-    }
-}
-
-/// Returns values passed by the simulation; empty if the pointer is null.
-unsafe fn slice<'a, T>(pointer: *const T, length: usize) -> &'a [T] {
-    if pointer.is_null() {
-        return &[];
-    }
-    // SAFETY: guaranteed by the simulation.
-    unsafe { std::slice::from_raw_parts(pointer, length) }
-}
-
-/// Returns the output values of the simulation; empty if the pointer is null.
-unsafe fn slice_mut<'a, T>(pointer: *mut T, length: usize) -> &'a mut [T] {
-    if pointer.is_null() {
-        return &mut [];
-    }
-    // SAFETY: guaranteed by the simulation.
-    unsafe { std::slice::from_raw_parts_mut(pointer, length) }
-}
-
 #[unsafe(no_mangle)]
 pub extern "C" fn fmi2GetTypesPlatform() -> *const c_char {
     c"default".as_ptr()
@@ -93,7 +71,7 @@ pub unsafe extern "C" fn fmi2SetDebugLogging(
     _names: *const *const c_char,
 ) -> c_int {
     // Warnings and errors are always logged; there are no other messages.
-    unsafe { with(component, |_| Ok(OK)) }
+    unsafe { accept(component) }
 }
 
 #[unsafe(no_mangle)]
@@ -107,49 +85,22 @@ pub unsafe extern "C" fn fmi2Instantiate(
     _logging: c_int,
 ) -> *mut c_void {
     // SAFETY: strings and callbacks belong to the simulation and are used only within this call.
-    let (name, guid, resources, callbacks) =
-        unsafe { (text_of(name), text_of(guid), text_of(resources), callbacks.as_ref()) };
-    let name = CString::new(name.unwrap_or(IDENTIFIER)).unwrap_or_default();
+    let (guid, resources, callbacks) = unsafe { (text_of(guid), text_of(resources), callbacks.as_ref()) };
     let (logger, environment) =
         callbacks.map_or((None, std::ptr::null_mut()), |callbacks| (callbacks.logger, callbacks.environment));
-    let made = guarded(|| {
+    // SAFETY: as above.
+    let log = unsafe { Log::new(name, logger.map(Logger::Two), environment) };
+    instantiate(log, guid, || {
         if kind != CO_SIMULATION {
             return Err("this unit is for co-simulation only".into());
         }
-        let folder = resources.and_then(folder_of).ok_or("the location of the resources is not a file URI")?;
-        let path = folder.join(MODEL.trim_start_matches("resources/"));
-        let bytes = std::fs::read(&path).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
-        let pressed = guid.and_then(|guid| pressed_of(guid, &bytes)).ok_or_else(|| {
-            format!("{} is not the model that this unit was made of; export it again", path.display())
-        })?;
-        let model = shared(&bytes)?;
-        let first = first_inputs(&model, pressed)?;
-        let roles = REALS.iter().map(|real| real.role(&model, pressed)).collect();
-        let contact = match model {
-            SavedModel::Stationary(model) => Contact::Stationary(Box::new(Coupled::new(model, pressed)?)),
-            SavedModel::InTime(model) => Contact::InTime(Box::new(InTime::new(model))),
-        };
-        Ok((contact, roles, first))
-    });
-    match made {
-        Ok((contact, roles, first)) => {
-            let state = State { time: 0.0, inputs: first, outputs: None, stepping: false };
-            let instance = Instance { name, logger, environment, contact, roles, first, state, told: TOLD };
-            Box::into_raw(Box::new(instance)).cast()
-        }
-        Err(Refused(sentence)) => {
-            say(logger, environment, &name, ERROR, &sentence);
-            std::ptr::null_mut()
-        }
-    }
+        Ok(resources.and_then(folder_of).ok_or("the location of the resources is not a file URI")?)
+    })
 }
 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2FreeInstance(component: *mut c_void) {
-    if !component.is_null() {
-        // SAFETY: `fmi2Instantiate` made it, and it is not used any more.
-        drop(unsafe { Box::from_raw(component.cast::<Instance>()) });
-    }
+    unsafe { free(component) }
 }
 
 #[unsafe(no_mangle)]
@@ -161,47 +112,27 @@ pub unsafe extern "C" fn fmi2SetupExperiment(
     _stop_defined: c_int,
     _stop: f64,
 ) -> c_int {
-    unsafe {
-        with(component, |instance| {
-            instance.state.time = start;
-            Ok(OK)
-        })
-    }
+    unsafe { set_start(component, start) }
 }
 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2EnterInitializationMode(component: *mut c_void) -> c_int {
-    unsafe { with(component, |_| Ok(OK)) }
+    unsafe { accept(component) }
 }
 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2ExitInitializationMode(component: *mut c_void) -> c_int {
-    unsafe {
-        with(component, |instance| {
-            let status = instance.follow()?;
-            instance.state.stepping = true;
-            Ok(status)
-        })
-    }
+    unsafe { exit_initialisation(component) }
 }
 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2Terminate(component: *mut c_void) -> c_int {
-    unsafe { with(component, |_| Ok(OK)) }
+    unsafe { accept(component) }
 }
 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2Reset(component: *mut c_void) -> c_int {
-    unsafe {
-        with(component, |instance| {
-            instance.state = State { time: 0.0, inputs: instance.first, outputs: None, stepping: false };
-            instance.told = TOLD;
-            if let Contact::InTime(contact) = &mut instance.contact {
-                contact.reset();
-            }
-            Ok(OK)
-        })
-    }
+    unsafe { reset(component) }
 }
 
 #[unsafe(no_mangle)]
@@ -229,13 +160,7 @@ pub unsafe extern "C" fn fmi2SetReal(
     count: usize,
     values: *const f64,
 ) -> c_int {
-    let (references, values) = unsafe { (slice(references, count), slice(values, count)) };
-    unsafe {
-        with(component, |instance| {
-            references.iter().zip(values).try_for_each(|(reference, value)| instance.set_real(*reference, *value))?;
-            Ok(OK)
-        })
-    }
+    unsafe { set_reals(component, slice(references, count), slice(values, count)) }
 }
 
 #[unsafe(no_mangle)]
@@ -248,19 +173,12 @@ pub unsafe extern "C" fn fmi2GetBoolean(
     let (references, values) = unsafe { (slice(references, count), slice_mut(values, count)) };
     unsafe {
         with(component, |instance| {
-            instance.follow()?;
             for (reference, value) in references.iter().zip(values) {
-                let (_, _, get) = truth(*reference)?;
-                *value = c_int::from(instance.state.outputs.as_ref().is_some_and(get));
+                *value = c_int::from(instance.truth(*reference as usize)?);
             }
             Ok(OK)
         })
     }
-}
-
-/// Refuses access to variables of a type that the unit does not have.
-unsafe fn none_of(component: *mut c_void, count: usize, what: &str) -> c_int {
-    unsafe { with(component, |_| if count == 0 { Ok(OK) } else { Err(format!("there are no {what}").into()) }) }
 }
 
 #[unsafe(no_mangle)]
@@ -315,44 +233,17 @@ pub unsafe extern "C" fn fmi2SetString(
 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetFMUstate(component: *mut c_void, kept: *mut *mut c_void) -> c_int {
-    unsafe {
-        with(component, |instance| {
-            // SAFETY: the location belongs to the simulation; a state in it was made here.
-            let place = kept.as_mut().ok_or("the pointer for the state is null")?;
-            match place.cast::<Kept>().as_mut() {
-                Some(kept) => *kept = instance.kept(),
-                None => *place = Box::into_raw(Box::new(instance.kept())).cast(),
-            }
-            Ok(OK)
-        })
-    }
+    unsafe { get_state(component, kept) }
 }
 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetFMUstate(component: *mut c_void, kept: *mut c_void) -> c_int {
-    unsafe {
-        with(component, |instance| {
-            // SAFETY: a state is null or was made by `fmi2GetFMUstate`.
-            instance.come_back(kept.cast::<Kept>().as_ref().ok_or("there is no state")?)?;
-            Ok(OK)
-        })
-    }
+    unsafe { set_state(component, kept) }
 }
 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2FreeFMUstate(component: *mut c_void, kept: *mut *mut c_void) -> c_int {
-    unsafe {
-        with(component, |_| {
-            // SAFETY: the location is null, empty, or holds a state made by `fmi2GetFMUstate`.
-            if let Some(place) = kept.as_mut()
-                && !place.is_null()
-            {
-                drop(Box::from_raw(place.cast::<Kept>()));
-                *place = std::ptr::null_mut();
-            }
-            Ok(OK)
-        })
-    }
+    unsafe { free_state(component, kept) }
 }
 
 #[unsafe(no_mangle)]
@@ -361,14 +252,7 @@ pub unsafe extern "C" fn fmi2SerializedFMUstateSize(
     kept: *mut c_void,
     size: *mut usize,
 ) -> c_int {
-    unsafe {
-        with(component, |instance| {
-            // SAFETY: a state is null or was made by `fmi2GetFMUstate`; the location belongs to the simulation.
-            let written = kept.cast::<Kept>().as_ref().ok_or("there is no state")?.written(instance.in_time())?;
-            *size.as_mut().ok_or("there is no place for the size")? = written.len();
-            Ok(OK)
-        })
-    }
+    unsafe { state_size(component, kept, size) }
 }
 
 #[unsafe(no_mangle)]
@@ -378,15 +262,7 @@ pub unsafe extern "C" fn fmi2SerializeFMUstate(
     bytes: *mut u8,
     size: usize,
 ) -> c_int {
-    unsafe {
-        with(component, |instance| {
-            // SAFETY: a state is null or was made by `fmi2GetFMUstate`; the bytes belong to the simulation.
-            let written = kept.cast::<Kept>().as_ref().ok_or("there is no state")?.written(instance.in_time())?;
-            let place = slice_mut(bytes, size).get_mut(..written.len());
-            place.ok_or("the buffer for the state is too small")?.copy_from_slice(&written);
-            Ok(OK)
-        })
-    }
+    unsafe { write_state(component, kept, bytes, size) }
 }
 
 #[unsafe(no_mangle)]
@@ -396,27 +272,27 @@ pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
     size: usize,
     kept: *mut *mut c_void,
 ) -> c_int {
-    unsafe {
-        with(component, |instance| {
-            let read = Kept::read(slice(bytes, size), instance.in_time())?;
-            // SAFETY: the location belongs to the simulation.
-            *kept.as_mut().ok_or("the pointer for the state is null")? = Box::into_raw(Box::new(read)).cast();
-            Ok(OK)
-        })
-    }
+    unsafe { read_state(component, bytes, size, kept) }
 }
 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
     component: *mut c_void,
-    _unknowns: *const c_uint,
-    _unknown_count: usize,
-    _knowns: *const c_uint,
-    _known_count: usize,
-    _known_changes: *const f64,
-    _unknown_changes: *mut f64,
+    unknowns: *const c_uint,
+    unknown_count: usize,
+    knowns: *const c_uint,
+    known_count: usize,
+    known_changes: *const f64,
+    unknown_changes: *mut f64,
 ) -> c_int {
-    unsafe { with(component, |_| Err("this unit provides no directional derivatives".into())) }
+    unsafe {
+        let (unknowns, knowns) = (slice(unknowns, unknown_count), slice(knowns, known_count));
+        let (seed, sensitivity) = (slice(known_changes, known_count), slice_mut(unknown_changes, unknown_count));
+        with(component, |instance| {
+            instance.directional((unknowns, knowns), seed, sensitivity)?;
+            Ok(OK)
+        })
+    }
 }
 
 #[unsafe(no_mangle)]
@@ -443,24 +319,17 @@ pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2DoStep(component: *mut c_void, time: f64, step: f64, _no_set_before: c_int) -> c_int {
-    unsafe {
-        with(component, |instance| {
-            if !(time.is_finite() && step.is_finite() && step >= 0.0) {
-                return Err(format!("a step of {step} at time {time} cannot be taken").into());
-            }
-            instance.step(time, step)
-        })
-    }
+    unsafe { with(component, |instance| instance.step(time, step)) }
 }
 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2CancelStep(component: *mut c_void) -> c_int {
-    unsafe { with(component, |_| Err("no step is under way: each is done when it returns".into())) }
+    unsafe { refuse(component, "no step is under way: each is done when it returns") }
 }
 
 /// Refuses status requests, since no step is ever pending.
 unsafe fn no_status(component: *mut c_void) -> c_int {
-    unsafe { with(component, |_| Err("no step is under way".into())) }
+    unsafe { refuse(component, "no step is under way") }
 }
 
 #[unsafe(no_mangle)]

@@ -1,64 +1,21 @@
-//! Instance of a unit: inputs, outputs, and states that can be saved.
+//! Instance of a unit: inputs, outputs and derivatives.
 
 use crate::border::Refused;
+use crate::log::{Log, OK, WARNING};
+use crate::state::{Kept, State};
 use ehl_explorer::engine::SavedModel;
-use ehl_explorer::engine::coupled::fmu::{REALS, Real, Role, TRUTHS, Truth, identity};
-use ehl_explorer::engine::coupled::{Coupled, InTime, InTimeState, Inputs, Outputs, Pressed};
+use ehl_explorer::engine::coupled::fmu::{
+    MODEL, Output, REALS, Real, Role, TRUTHS, first_inputs, identity, pressed_of,
+};
+use ehl_explorer::engine::coupled::{Coupled, Derivative, InTime, Inputs, Outputs, Pressed};
 use ehl_explorer::solver::reduced::ReducedModel;
 use ehl_explorer::solver::reduced::transient::TrajectoryModel;
-use std::ffi::{CString, c_char, c_int, c_uint, c_void};
+use std::ffi::{c_int, c_uint};
+use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 
-/// `fmi2OK`.
-pub const OK: c_int = 0;
-/// `fmi2Warning`.
-pub const WARNING: c_int = 1;
-/// `fmi2Discard`.
-pub const DISCARD: c_int = 2;
-/// `fmi2Error`.
-pub const ERROR: c_int = 3;
-
-/// `fmi2CallbackLogger`.
-pub type Logger = unsafe extern "C" fn(
-    *mut c_void,
-    *const c_char,
-    status: c_int,
-    category: *const c_char,
-    message: *const c_char,
-    ...
-);
-
-/// `fmi2CallbackFunctions`.
-#[repr(C)]
-pub struct FmiCallbacks {
-    pub logger: Option<Logger>,
-    allocate_memory: *const c_void,
-    free_memory: *const c_void,
-    step_finished: *const c_void,
-    pub environment: *mut c_void,
-}
-
-/// Changing data of an instance, except for the transient contact.
-#[derive(Clone)]
-pub struct State {
-    pub time: f64,
-    pub inputs: Inputs,
-    /// Outputs for the inputs; `None` if the inputs have changed since. For a transient contact, the outputs at the end
-    /// of the last step, also if inputs have been set since.
-    pub outputs: Option<Outputs>,
-    /// True after the initialisation. A transient contact then changes only by steps.
-    pub stepping: bool,
-}
-
-/// Saved state of an instance.
-pub struct Kept {
-    state: State,
-    /// State of a transient contact that has started.
-    contact: Option<InTimeState>,
-}
-
 /// Solver of an instance.
-pub enum Contact {
+enum Contact {
     /// Steady contact, solved independently at each step.
     Stationary(Box<Coupled>),
     /// Transient contact, advanced by each step.
@@ -69,19 +26,43 @@ pub enum Contact {
 const ROUNDING: (f64, f64) = (1e-6, 1e-12);
 
 /// Value of [`Instance::told`] for a contact without warnings.
-pub const TOLD: (bool, usize) = (false, 0);
+const TOLD: (bool, usize) = (false, 0);
 
-pub struct Instance {
-    pub name: CString,
-    pub logger: Option<Logger>,
-    pub environment: *mut c_void,
-    pub contact: Contact,
+/// Contact of a unit with its variables.
+pub struct Unit {
+    contact: Contact,
     /// Causality of each real variable; `None` for variables that the unit does not have.
-    pub roles: Vec<Option<Role>>,
-    pub first: Inputs,
+    roles: Vec<Option<Role>>,
+    /// Start values.
+    first: Inputs,
+}
+
+impl Unit {
+    /// Returns the unit with this identity, from the folder of its resources.
+    pub fn of(identity: Option<&str>, resources: &Path) -> Result<Self, Refused> {
+        let path = resources.join(MODEL.trim_start_matches("resources/"));
+        let bytes = std::fs::read(&path).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
+        let pressed = identity.and_then(|identity| pressed_of(identity, &bytes)).ok_or_else(|| {
+            format!("{} is not the model that this unit was made of; export it again", path.display())
+        })?;
+        let model = shared(&bytes)?;
+        let first = first_inputs(&model, pressed)?;
+        let roles = REALS.iter().map(|real| real.role(&model, pressed)).collect();
+        let contact = match model {
+            SavedModel::Stationary(model) => Contact::Stationary(Box::new(Coupled::new(model, pressed)?)),
+            SavedModel::InTime(model) => Contact::InTime(Box::new(InTime::new(model))),
+        };
+        Ok(Self { contact, roles, first })
+    }
+}
+
+/// Instance of a unit.
+pub struct Instance {
+    pub log: Log,
+    unit: Unit,
     pub state: State,
     /// Use of the full solver and number of warnings in the last log message. A message is written only if they change.
-    pub told: (bool, usize),
+    told: (bool, usize),
 }
 
 /// Model shared by instances, freed with the last of them.
@@ -102,7 +83,7 @@ impl SharedModel {
 /// Shared models, by the identity of their units.
 static MODELS: Mutex<Vec<(String, SharedModel)>> = Mutex::new(Vec::new());
 
-pub fn shared(bytes: &[u8]) -> Result<SavedModel, Refused> {
+fn shared(bytes: &[u8]) -> Result<SavedModel, Refused> {
     let name = identity(bytes, Pressed::Load);
     let mut models = MODELS.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some(model) = models.iter().find(|(own, _)| *own == name).and_then(|(_, model)| model.upgrade()) {
@@ -118,31 +99,38 @@ pub fn shared(bytes: &[u8]) -> Result<SavedModel, Refused> {
     Ok(model)
 }
 
-/// Sends a message to the simulation's logger.
-pub fn say(logger: Option<Logger>, environment: *mut c_void, name: &CString, status: c_int, sentence: &str) {
-    let Some(logger) = logger else { return };
-    let category = if status == WARNING { c"logStatusWarning" } else { c"logStatusError" };
-    // The message is a `printf` format.
-    let Ok(message) = CString::new(sentence.replace('%', "%%").replace('\0', " ")) else { return };
-    // SAFETY: the logger and its environment come from the simulation; the strings end with zeros and outlive the call.
-    unsafe { logger(environment, name.as_ptr(), status, category.as_ptr(), message.as_ptr()) };
-}
-
 impl Instance {
-    pub fn in_time(&self) -> bool {
-        matches!(self.contact, Contact::InTime(_))
+    /// Returns an instance before its initialisation.
+    pub fn new(log: Log, unit: Unit) -> Self {
+        Self { log, state: State::first(unit.first), unit, told: TOLD }
     }
 
-    pub fn say(&self, status: c_int, sentence: &str) -> c_int {
-        say(self.logger, self.environment, &self.name, status, sentence);
-        status
+    /// Returns to the state before the initialisation.
+    pub fn reset(&mut self) {
+        self.state = State::first(self.unit.first);
+        self.told = TOLD;
+        if let Contact::InTime(contact) = &mut self.unit.contact {
+            contact.reset();
+        }
+    }
+
+    /// Returns true for a transient contact.
+    pub fn in_time(&self) -> bool {
+        matches!(self.unit.contact, Contact::InTime(_))
+    }
+
+    /// Ends the initialisation.
+    pub fn exit_initialisation(&mut self) -> Result<c_int, Refused> {
+        let status = self.follow()?;
+        self.state.stepping = true;
+        Ok(status)
     }
 
     /// Computes the outputs if the inputs have changed. The status is "warning" if there are warnings.
     pub fn follow(&mut self) -> Result<c_int, Refused> {
         if self.state.outputs.is_none() {
             let inputs = &self.state.inputs;
-            let outputs = match &mut self.contact {
+            let outputs = match &mut self.unit.contact {
                 Contact::Stationary(contact) => {
                     let outputs = contact.solve(inputs)?.of_training()?;
                     // The load found is the start value of the next search.
@@ -166,13 +154,16 @@ impl Instance {
         self.told = now;
         self.state.outputs = Some(outputs);
         if news {
-            self.say(WARNING, &sentence);
+            self.log.say(WARNING, &sentence);
         }
     }
 
     /// Takes a step. A transient contact advances to the inputs at the end of the step.
     pub fn step(&mut self, time: f64, step: f64) -> Result<c_int, Refused> {
-        let Contact::InTime(contact) = &mut self.contact else {
+        if !(time.is_finite() && step.is_finite() && step >= 0.0) {
+            return Err(format!("a step of {step} at time {time} cannot be taken").into());
+        }
+        let Contact::InTime(contact) = &mut self.unit.contact else {
             self.state.time = time + step;
             return self.follow();
         };
@@ -196,7 +187,7 @@ impl Instance {
 
     /// Returns the state to save.
     pub fn kept(&self) -> Kept {
-        let contact = match &self.contact {
+        let contact = match &self.unit.contact {
             Contact::Stationary(_) => None,
             Contact::InTime(contact) => contact.state(),
         };
@@ -205,7 +196,7 @@ impl Instance {
 
     /// Restores a saved state.
     pub fn come_back(&mut self, kept: &Kept) -> Result<(), Refused> {
-        match (&mut self.contact, &kept.contact) {
+        match (&mut self.unit.contact, &kept.contact) {
             (Contact::Stationary(_), None) => {}
             (Contact::InTime(contact), Some(state)) => contact.restore(state)?,
             (Contact::InTime(contact), None) => contact.reset(),
@@ -215,6 +206,7 @@ impl Instance {
         Ok(())
     }
 
+    /// Returns the value of a real variable.
     pub fn real(&mut self, reference: c_uint) -> Result<f64, Refused> {
         let (real, role) = self.variable(reference)?;
         if let Some(value) = real.value(role, &self.state.inputs, self.state.outputs.as_ref()) {
@@ -227,10 +219,11 @@ impl Instance {
     /// Returns a real variable of this unit and its causality.
     fn variable(&self, reference: c_uint) -> Result<(&'static Real, Role), Refused> {
         let (place, none) = (reference as usize, || format!("there is no real variable {reference}"));
-        let role = self.roles.get(place).copied().flatten().ok_or_else(none)?;
+        let role = self.unit.roles.get(place).copied().flatten().ok_or_else(none)?;
         Ok((REALS.get(place).ok_or_else(none)?, role))
     }
 
+    /// Sets a real variable.
     pub fn set_real(&mut self, reference: c_uint, value: f64) -> Result<(), Refused> {
         let mut inputs = self.state.inputs;
         let (real, role) = self.variable(reference)?;
@@ -238,92 +231,89 @@ impl Instance {
         if inputs != self.state.inputs {
             self.state.inputs = inputs;
             // Later inputs do not change the outputs of a transient contact at the end of a step.
-            if !(self.state.stepping && matches!(self.contact, Contact::InTime(_))) {
+            if !(self.state.stepping && self.in_time()) {
                 self.state.outputs = None;
             }
         }
         Ok(())
     }
-}
 
-pub fn truth(reference: c_uint) -> Result<&'static Truth, Refused> {
-    TRUTHS.get(reference as usize).ok_or_else(|| format!("there is no Boolean variable {reference}").into())
-}
-
-/// Format identifiers at the beginning of a serialised state, for steady and transient contacts.
-const FORMS: [&[u8; 8]; 2] = [b"EHLFMU01", b"EHLFMU02"];
-/// Number of numbers in a serialised state: time and inputs. Outputs are computed from them. For a transient contact,
-/// they are followed by the end-of-initialisation flag and the state of the contact, if it has started.
-const NUMBERS: usize = 10;
-
-impl Kept {
-    pub fn written(&self, in_time: bool) -> Result<Vec<u8>, Refused> {
-        let i = &self.state.inputs;
-        let numbers: [f64; NUMBERS] = [
-            self.state.time,
-            i.radius_m,
-            i.radius_ratio,
-            i.speed_m_per_s,
-            i.slide_to_roll_ratio,
-            i.load,
-            i.approach_m,
-            i.modulus_pa,
-            i.viscosity_pa_s,
-            i.alpha_per_pa,
-        ];
-        let form = FORMS[usize::from(in_time)];
-        let mut written: Vec<u8> = form.iter().copied().chain(numbers.into_iter().flat_map(f64::to_le_bytes)).collect();
-        if in_time {
-            written.push(u8::from(self.state.stepping));
-            if let Some(contact) = &self.contact {
-                written.extend(contact.to_bytes()?);
-            }
-        }
-        Ok(written)
+    /// Returns the value of a boolean variable, by its value reference in FMI 2.
+    pub fn truth(&mut self, reference: usize) -> Result<bool, Refused> {
+        self.follow()?;
+        let (_, _, get) = TRUTHS.get(reference).ok_or_else(|| format!("there is no Boolean variable {reference}"))?;
+        Ok(self.state.outputs.as_ref().is_some_and(get))
     }
 
-    pub fn read(bytes: &[u8], in_time: bool) -> Result<Self, Refused> {
-        let none = "this is not a state of this unit";
-        let (body, rest) = bytes
-            .strip_prefix(FORMS[usize::from(in_time)])
-            .and_then(|body| body.split_at_checked(8 * NUMBERS))
-            .ok_or(none)?;
-        let (stepping, contact) = match (rest.split_first(), in_time) {
-            (None, false) => (true, None),
-            (Some((stepping, [])), true) => (*stepping != 0, None),
-            (Some((stepping, contact)), true) => (*stepping != 0, Some(InTimeState::from_bytes(contact)?)),
-            _ => return Err(none.into()),
-        };
-        let mut numbers = [0.0; NUMBERS];
-        for (number, bytes) in numbers.iter_mut().zip(body.as_chunks().0) {
-            *number = f64::from_le_bytes(*bytes);
+    /// Computes Σ seed · ∂unknown/∂known over the knowns, for each unknown.
+    pub fn directional(
+        &mut self,
+        (unknowns, knowns): (&[c_uint], &[c_uint]),
+        seed: &[f64],
+        sensitivity: &mut [f64],
+    ) -> Result<(), Refused> {
+        check_lengths("known", knowns, seed)?;
+        check_lengths("unknown", unknowns, sensitivity)?;
+        let outputs = self.unknowns(unknowns)?;
+        let mut sums = vec![0.0; outputs.len()];
+        for (known, seed) in knowns.iter().zip(seed).filter(|(_, seed)| **seed != 0.0) {
+            let derivative = self.derivative(*known)?;
+            sums.iter_mut().zip(&outputs).for_each(|(sum, output)| *sum += seed * derivative.of(output));
         }
-        if !numbers.iter().all(|number| number.is_finite()) {
-            return Err("the state holds a number that is not finite".into());
-        }
-        let [
-            time,
-            radius_m,
-            radius_ratio,
-            speed_m_per_s,
-            slide_to_roll_ratio,
-            load,
-            approach_m,
-            modulus_pa,
-            viscosity_pa_s,
-            alpha_per_pa,
-        ] = numbers;
-        let inputs = Inputs {
-            radius_m,
-            radius_ratio,
-            speed_m_per_s,
-            slide_to_roll_ratio,
-            load,
-            approach_m,
-            modulus_pa,
-            viscosity_pa_s,
-            alpha_per_pa,
-        };
-        Ok(Self { state: State { time, inputs, outputs: None, stepping }, contact })
+        sensitivity.copy_from_slice(&sums);
+        Ok(())
     }
+
+    /// Computes Σ seed · ∂unknown/∂known over the unknowns, for each known.
+    pub fn adjoint(
+        &mut self,
+        (unknowns, knowns): (&[c_uint], &[c_uint]),
+        seed: &[f64],
+        sensitivity: &mut [f64],
+    ) -> Result<(), Refused> {
+        check_lengths("unknown", unknowns, seed)?;
+        check_lengths("known", knowns, sensitivity)?;
+        let outputs = self.unknowns(unknowns)?;
+        let mut sums = Vec::new();
+        for known in knowns {
+            let derivative = self.derivative(*known)?;
+            let parts = outputs.iter().zip(seed).filter(|(_, seed)| **seed != 0.0);
+            sums.push(parts.map(|(output, seed)| seed * derivative.of(output)).sum::<f64>());
+        }
+        sensitivity.copy_from_slice(&sums);
+        Ok(())
+    }
+
+    /// Returns the functions that read some outputs.
+    fn unknowns(&self, references: &[c_uint]) -> Result<Vec<Output>, Refused> {
+        let output = |reference: &c_uint| {
+            let (real, role) = self.variable(*reference)?;
+            Ok(real
+                .output(role)
+                .ok_or_else(|| format!("`{}` is no output; derivatives are those of outputs", real.name))?)
+        };
+        references.iter().map(output).collect()
+    }
+
+    /// Returns the derivative of the outputs by an input or a parameter.
+    fn derivative(&mut self, known: c_uint) -> Result<Derivative, Refused> {
+        let (real, role) = self.variable(known)?;
+        let by = real
+            .input(role)
+            .ok_or_else(|| format!("`{}` is an output; derivatives are those by inputs and parameters", real.name))?;
+        self.follow()?;
+        match (&mut self.unit.contact, &self.state.outputs) {
+            (Contact::Stationary(contact), Some(outputs)) => Ok(contact.derivative(&self.state.inputs, outputs, by)?),
+            _ => Err("a transient unit provides no derivatives".into()),
+        }
+    }
+}
+
+/// Refuses lists of variables and values of different length.
+fn check_lengths(what: &str, variables: &[c_uint], values: &[f64]) -> Result<(), Refused> {
+    let (variables, values) = (variables.len(), values.len());
+    if variables == values {
+        return Ok(());
+    }
+    Err(format!("there are {variables} {what}s, but {values} values for them").into())
 }

@@ -32,6 +32,22 @@ def solve_json(program):
 
 
 @pytest.fixture(scope="session")
+def units(program, tmp_path_factory):
+    """Exports units by model, options and version of the standard, each as a file and an unpacked folder."""
+    fmpy = pytest.importorskip("fmpy")
+    folder = tmp_path_factory.mktemp("units")
+
+    def unit(kind, *words, version="2"):
+        path = folder / f"{kind}{''.join(words)}_{version}.fmu"
+        if not path.exists():
+            program("export", "fmu", ROOT / "assets" / f"{kind}.rom", "--out", path, "--fmi", version, *words)
+            fmpy.extract(path, unzipdir=path.with_suffix(""))
+        return path
+
+    return unit
+
+
+@pytest.fixture(scope="session")
 def in_time_training():
     """Scene that trains a transient model quickly: a load that oscillates with two periods, on a coarse grid."""
     return """Scene(

@@ -1,6 +1,5 @@
 """Models as Functional Mock-up Units, imported by FMPy: their results are those of ``solve``."""
 
-import pathlib
 import shutil
 import threading
 import time
@@ -12,82 +11,17 @@ import ehl_explorer as ehl
 
 fmpy = pytest.importorskip("fmpy")
 from fmpy.fmi1 import FMICallException  # noqa: E402
-from fmpy.fmi2 import FMU2Slave  # noqa: E402
 from fmpy.validation import validate_fmu  # noqa: E402
 
 from conftest import ROOT  # noqa: E402
+from fmu_unit import DISCARD, Unit  # noqa: E402
 
 KINDS = ["line", "point"]
-
-
-@pytest.fixture(scope="session")
-def units(program, tmp_path_factory):
-    """Exports units by model and options, each as a file and an unpacked folder."""
-    folder = tmp_path_factory.mktemp("units")
-
-    def unit(kind, *words):
-        path = folder / f"{kind}{''.join(words)}.fmu"
-        if not path.exists():
-            program("export", "fmu", ROOT / "assets" / f"{kind}.rom", "--out", path, *words)
-            fmpy.extract(path, unzipdir=path.with_suffix(""))
-        return path
-
-    return unit
-
-
-class Unit:
-    """Instance of a unit, with variables by name."""
-
-    def __init__(self, path):
-        self.description = fmpy.read_model_description(path)
-        self.references = {v.name: v.valueReference for v in self.description.modelVariables}
-        self.said = []
-        self.slave = FMU2Slave(
-            guid=self.description.guid,
-            unzipDirectory=str(path.with_suffix("")),
-            modelIdentifier=self.description.coSimulation.modelIdentifier,
-            instanceName="contact",
-        )
-
-        def logger(environment, name, status, category, message):
-            self.said.append(message.decode())
-
-        from fmpy.fmi2 import fmi2CallbackFunctions, fmi2CallbackLoggerTYPE, fmi2CallbackAllocateMemoryTYPE
-        from fmpy.fmi2 import fmi2CallbackFreeMemoryTYPE, calloc, free
-
-        self.callbacks = fmi2CallbackFunctions()
-        self.callbacks.logger = fmi2CallbackLoggerTYPE(logger)
-        self.callbacks.allocateMemory = fmi2CallbackAllocateMemoryTYPE(calloc)
-        self.callbacks.freeMemory = fmi2CallbackFreeMemoryTYPE(free)
-        self.slave.instantiate(callbacks=self.callbacks)
-        self.slave.setupExperiment(startTime=0.0)
-        self.slave.enterInitializationMode()
-
-    def start(self):
-        self.slave.exitInitializationMode()
-        self.time = 0.0
-        return self
-
-    def set(self, **values):
-        self.slave.setReal([self.references[name] for name in values], list(values.values()))
-
-    def get(self, *names):
-        return self.slave.getReal([self.references[name] for name in names])
-
-    def truths(self):
-        return self.slave.getBoolean([self.references["reduced.trained"], self.references["full"]])
-
-    def step(self, length=0.01):
-        self.slave.doStep(currentCommunicationPoint=self.time, communicationStepSize=length)
-        self.time += length
-
-    def end(self):
-        self.slave.terminate()
-        self.slave.freeInstance()
+VERSIONS = ["2", "3"]
 
 
 def starts(unit):
-    return {v.name: float(v.start) for v in unit.description.modelVariables if v.start is not None}
+    return unit.starts()
 
 
 def contact_of(kind, given):
@@ -95,9 +29,10 @@ def contact_of(kind, given):
     return ehl.Contact(contact=kind, srr=given["srr"], **{name: given[name] for name in names})
 
 
+@pytest.mark.parametrize("version", VERSIONS)
 @pytest.mark.parametrize("kind, words", [("line", []), ("point", []), ("point", ["--approach"])])
-def test_validation_has_no_remarks_and_the_unit_is_small(kind, words, units):
-    path = units(kind, *words)
+def test_validation_has_no_remarks_and_the_unit_is_small(kind, words, version, units):
+    path = units(kind, *words, version=version)
     assert validate_fmu(path) == []
     (library,) = (path.with_suffix("") / "binaries").rglob("ehl_contact.*")
     assert library.stat().st_size < 15e6, library.stat().st_size
@@ -130,15 +65,17 @@ def test_many_steps_are_what_solve_answers(kind, steps, units):
         np.testing.assert_allclose(seen[:, k], column, rtol=1e-12, atol=0, err_msg=names[k])
 
 
+@pytest.mark.parametrize("version", VERSIONS)
 @pytest.mark.parametrize("kind", KINDS)
-def test_fmpy_simulates_it(kind, units):
-    result = fmpy.simulate_fmu(units(kind), stop_time=0.1, step_size=0.01, output=["h_c_m", "reduced.trained"])
+def test_fmpy_simulates_it(kind, version, units):
+    result = fmpy.simulate_fmu(units(kind, version=version), stop_time=0.1, step_size=0.01, output=["h_c_m", "reduced.trained"])
     assert len(result) == 11 and (result["h_c_m"] > 0).all() and result["reduced.trained"].all()
 
 
+@pytest.mark.parametrize("version", VERSIONS)
 @pytest.mark.parametrize("kind, words", [("line", []), ("point", ["--approach"])])
-def test_a_state_is_kept_written_and_set_again(kind, words, units):
-    path = units(kind, *words)
+def test_a_state_is_kept_written_and_set_again(kind, words, version, units):
+    path = units(kind, *words, version=version)
     unit = Unit(path).start()
     first = starts(unit)
     name = "approach" if words else "load"
@@ -175,22 +112,22 @@ def test_a_state_is_kept_written_and_set_again(kind, words, units):
     other.end()
 
 
-def test_reset_begins_anew(units):
-    unit = Unit(units("line")).start()
+@pytest.mark.parametrize("version", VERSIONS)
+def test_reset_begins_anew(version, units):
+    unit = Unit(units("line", version=version)).start()
     before = unit.get("h_c_m")
     unit.set(load=2 * unit.get("load")[0])
     unit.step()
     assert unit.get("h_c_m") != before
-    unit.slave.reset()
-    unit.slave.setupExperiment(startTime=0.0)
-    unit.slave.enterInitializationMode()
+    unit.reset()
     unit.start()
     assert unit.get("h_c_m") == before
     unit.end()
 
 
-def test_many_instances_work_at_once(units):
-    path = units("line")
+@pytest.mark.parametrize("version", VERSIONS)
+def test_many_instances_work_at_once(version, units):
+    path = units("line", version=version)
     films = {}
 
     def work(k):
@@ -211,8 +148,9 @@ def test_many_instances_work_at_once(units):
     assert len(films) == 8 and all(len(own) == 200 and own == films[0] for own in films.values())
 
 
-def test_what_makes_no_sense_is_refused_in_a_sentence_and_changes_nothing(units):
-    unit = Unit(units("line")).start()
+@pytest.mark.parametrize("version", VERSIONS)
+def test_what_makes_no_sense_is_refused_in_a_sentence_and_changes_nothing(version, units):
+    unit = Unit(units("line", version=version)).start()
     before = unit.get("h_c_m", "load")
     for name, value in [("load", float("nan")), ("speed", float("inf")), ("h_c_m", 1.0)]:
         with pytest.raises(FMICallException):
@@ -227,16 +165,15 @@ def test_what_makes_no_sense_is_refused_in_a_sentence_and_changes_nothing(units)
     unit.step()
     assert unit.get("h_c_m", "load") == before
     with pytest.raises(FMICallException):
-        unit.slave.getReal([99])
+        unit.get_reals([99])
+    assert "99" in unit.said[-1]
     unit.end()
 
 
-DISCARD = 2
-
-
+@pytest.mark.parametrize("version", VERSIONS)
 @pytest.mark.parametrize("kind, heavier", [("line", 40), ("point", 10)])
-def test_a_step_beyond_the_trained_range_is_discarded_with_the_reason_of_solve(kind, heavier, units):
-    unit = Unit(units(kind)).start()
+def test_a_step_beyond_the_trained_range_is_discarded_with_the_reason_of_solve(kind, heavier, version, units):
+    unit = Unit(units(kind, version=version)).start()
     first, outputs = starts(unit), ["h_c_m", "traction", "approach"]
     before = unit.get(*outputs)
     solved = ehl.solve(contact_of(kind, {**first, "load": heavier * first["load"]}), method="reduced")
@@ -249,7 +186,7 @@ def test_a_step_beyond_the_trained_range_is_discarded_with_the_reason_of_solve(k
             assert raised.value.status == DISCARD
             assert solved.warnings[0] in unit.said[-1], unit.said
         # The simulation may continue.
-        assert unit.slave.getBooleanStatus(3) == 0 and unit.slave.getRealStatus(2) == 0.0
+        assert unit.last_time() == 0.0
         unit.set(load=first["load"])
         assert unit.get(*outputs) == before
     unit.step()
@@ -257,8 +194,9 @@ def test_a_step_beyond_the_trained_range_is_discarded_with_the_reason_of_solve(k
     unit.end()
 
 
-def test_a_unit_that_begins_beyond_the_trained_range_may_begin_elsewhere(units):
-    unit = Unit(units("line"))
+@pytest.mark.parametrize("version", VERSIONS)
+def test_a_unit_that_begins_beyond_the_trained_range_may_begin_elsewhere(version, units):
+    unit = Unit(units("line", version=version))
     first = starts(unit)
     unit.set(load=40 * first["load"])
     with pytest.raises(FMICallException):
@@ -307,8 +245,9 @@ def test_an_approach_gives_the_film_of_its_load(units):
     unit.end()
 
 
-def test_a_unit_with_another_model_is_refused(units, tmp_path):
-    path = units("line")
+@pytest.mark.parametrize("version", VERSIONS)
+def test_a_unit_with_another_model_is_refused(version, units, tmp_path):
+    path = units("line", version=version)
     folder = tmp_path / "other"
     shutil.copytree(path.with_suffix(""), folder)
     shutil.copy(ROOT / "assets" / "point.rom", folder / "resources" / "model.rom")
@@ -323,6 +262,7 @@ def test_exports_that_make_no_sense_are_refused(program, tmp_path):
         (["fmu", "no_such.rom"], "no_such.rom"),
         (["fmu", line, "--lubricant", "squalane-pip"], "another lubricant"),
         (["fmu", line, "--lubricant", "butter"], "accepted are"),
+        (["fmu", line, "--fmi", "4"], "accepted are 2 and 3"),
         (["fmu", line, "--library", "no_such.so"], "no_such.so"),
     ]:
         said = program("export", *words, "--out", out, code=2)

@@ -13,7 +13,7 @@ from fmpy.fmi1 import FMICallException  # noqa: E402
 from fmpy.validation import validate_fmu  # noqa: E402
 
 from conftest import ROOT  # noqa: E402
-from test_fmu import Unit  # noqa: E402
+from fmu_unit import Unit  # noqa: E402
 
 POINT = dict(radius=0.002, speed=5.0, load=2e5, modulus=2.31e11, viscosity=0.01, alpha=1e-8)
 STEP = 0.01
@@ -120,9 +120,7 @@ def test_outputs_stay_until_a_step_is_taken_and_a_reset_begins_anew(path, scales
     with pytest.raises(FMICallException):
         unit.slave.doStep(currentCommunicationPoint=99.0, communicationStepSize=STEP * scales[0])
     assert "continues from its present time" in unit.said[-1]
-    unit.slave.reset()
-    unit.slave.setupExperiment(startTime=0.0)
-    unit.slave.enterInitializationMode()
+    unit.reset()
     unit.start()
     assert unit.get(*FILMS, "approach") == first
     unit.end()
@@ -206,7 +204,7 @@ def test_a_step_beyond_the_training_is_discarded_and_changes_nothing(path, scale
             unit.slave.doStep(currentCommunicationPoint=0.0, communicationStepSize=length * scales[0])
         assert raised.value.status == 2 and reason in unit.said[-1], unit.said
         assert unit.get(*FILMS, "approach") == before and unit.truths() == [True, False]
-        assert unit.slave.getBooleanStatus(3) == 0 and unit.slave.getRealStatus(2) == 0.0
+        assert unit.last_time() == 0.0
     # The same change in more time.
     unit.set(load=1.08 * POINT["load"])
     unit.step(20 * STEP * scales[0])

@@ -217,7 +217,7 @@ def test_contacts_that_cannot_be_marched_are_refused_alike(stated, method, progr
 @pytest.mark.parametrize("stated", [stated for stated in SIX if "unit" in stated], ids=lambda stated: stated["name"])
 def test_units_are_the_same_where_a_model_has_the_contact(stated, solve_json, program, tmp_path):
     fmpy = pytest.importorskip("fmpy")
-    from test_fmu import Unit
+    from fmu_unit import Unit
 
     # Quantities without a variable have the values of the training.
     lacking = [name.replace("-", "_") for name in stated.get("unit lacks", [])]
@@ -251,7 +251,7 @@ def test_units_have_no_variable_of_a_supplied_film(program, tmp_path):
     """Units do not support starved contacts: their inlet is fully flooded. A contact outside the trained range is
     discarded with the quantity and the range."""
     fmpy = pytest.importorskip("fmpy")
-    from test_fmu import Unit
+    from fmu_unit import Unit
 
     path = tmp_path / "contact.fmu"
     program("export", "fmu", ROOT / "assets" / "line_shear.rom", "--out", path)

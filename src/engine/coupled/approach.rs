@@ -38,13 +38,37 @@ pub(super) struct Reach {
 }
 
 /// Contact at an end of the trained loads.
-struct End {
-    load: f64,
+#[derive(Clone)]
+pub(super) struct End {
+    pub load: f64,
     approach_m: f64,
     /// Load over its slope by the approach \[m\].
-    length_m: f64,
+    pub length_m: f64,
     outputs: Outputs,
 }
+
+impl Reach {
+    /// Returns the index of the end that an approach is beyond: 0 for the smallest load, 1 for the largest one.
+    fn index_beyond(&self, wanted: f64) -> Option<usize> {
+        let [low, high] = &self.ends;
+        if wanted <= low.approach_m {
+            return Some(0);
+        }
+        (wanted >= high.approach_m).then_some(1)
+    }
+}
+
+/// One of the two ends, for an approach beyond it.
+pub(super) struct Beyond {
+    pub end: End,
+    /// Factor of the load from which the slope at the end is computed.
+    pub inwards: f64,
+    /// Index of the end: 0 for the smallest load, 1 for the largest one.
+    index: usize,
+}
+
+/// Factors of the loads at both ends from which their slopes are computed.
+const INWARDS: [f64; 2] = [1.0 + DIFFERENCE, 1.0 / (1.0 + DIFFERENCE)];
 
 /// Exponents of the load in the separation of a wide gap, and in the approach of a heavily loaded contact.
 fn exponents(kind: ContactKind) -> [f64; 2] {
@@ -64,15 +88,14 @@ fn usual_load(inputs: &Inputs, kind: ContactKind) -> f64 {
 }
 
 impl End {
-    /// Solves the contact under an end of the trained loads and under another load next to it.
-    fn of(coupled: &mut Coupled, inputs: &Inputs, load: f64, inwards: f64) -> Result<Self, CoupledError> {
-        let (outputs, beside) = (coupled.under(inputs, load)?, coupled.under(inputs, load * inwards)?);
+    /// Returns the end with these outputs. Those of `inner` are under a load `inwards` times as large.
+    pub fn of(outputs: Outputs, inner: &Outputs, inwards: f64) -> Result<Self, CoupledError> {
         // ln w is closer to a straight line than w.
-        let length_m = (beside.approach_m - outputs.approach_m) / inwards.ln();
+        let length_m = (inner.approach_m - outputs.approach_m) / inwards.ln();
         if !(length_m.is_finite() && length_m > 0.0) {
-            return Err(CoupledError::NoLoad(inputs.approach_m));
+            return Err(CoupledError::NoLoad(outputs.approach_m));
         }
-        Ok(Self { load, approach_m: outputs.approach_m, length_m, outputs })
+        Ok(Self { load: outputs.load, approach_m: outputs.approach_m, length_m, outputs })
     }
 
     /// Returns the outputs at an approach beyond this end; `exponent` is that of the load.
@@ -91,6 +114,7 @@ impl End {
         outputs.half_width_m *= dry;
         outputs.hertz_pressure_pa *= dry;
         outputs.approach_m = wanted;
+        outputs.film_ratio_min += film * outputs.film_ratio_min / outputs.h_min_m;
         outputs.h_c_m += film;
         outputs.h_min_m += film;
         outputs.error_bounds = [f64::NAN; 3];
@@ -100,27 +124,60 @@ impl End {
     }
 }
 
+impl Beyond {
+    /// Returns the outputs at an approach beyond a state of this end.
+    pub fn outputs(&self, end: &End, wanted: f64, kind: ContactKind) -> Outputs {
+        end.beyond(wanted, exponents(kind)[self.index], kind)
+    }
+}
+
 impl Coupled {
     /// Returns the outputs at the approach of the inputs.
     pub(super) fn approached(&mut self, inputs: &Inputs) -> Result<Outputs, CoupledError> {
-        let wanted = inputs.approach_m;
-        check("approach", wanted, " m", ("", |_| true))?;
-        let given = Inputs { approach_m: 0.0, load: usual_load(inputs, self.model.contact()), ..*inputs };
-        let reach = match self.reach.take() {
-            Some(reach) if reach.inputs == given => reach,
-            _ => self.reach(&given)?,
-        };
+        check("approach", inputs.approach_m, " m", ("", |_| true))?;
+        let reach = self.take_reach(inputs)?;
         let found = self.within(&reach, inputs);
         self.reach = Some(reach);
         found
     }
 
+    /// Returns the end of the trained loads that the approach of the inputs is beyond; `None` if it is between them.
+    pub(super) fn beyond(&mut self, inputs: &Inputs) -> Result<Option<Beyond>, CoupledError> {
+        let reach = self.take_reach(inputs)?;
+        let index = reach.index_beyond(inputs.approach_m);
+        let found = index.map(|index| Beyond { end: reach.ends[index].clone(), inwards: INWARDS[index], index });
+        self.reach = Some(reach);
+        Ok(found)
+    }
+
+    /// Returns the load of an end for other inputs.
+    pub(super) fn load_of(&self, beyond: &Beyond, inputs: &Inputs) -> Result<f64, CoupledError> {
+        let (low, high) = self.trained_loads(&self.given(inputs))?;
+        Ok([low, high][beyond.index])
+    }
+
+    /// Returns the inputs without load and approach, on which the trained loads depend.
+    fn given(&self, inputs: &Inputs) -> Inputs {
+        Inputs { approach_m: 0.0, load: usual_load(inputs, self.model.contact()), ..*inputs }
+    }
+
+    /// Returns the trained loads for some inputs: the stored ones, or new ones.
+    fn take_reach(&mut self, inputs: &Inputs) -> Result<Reach, CoupledError> {
+        let given = self.given(inputs);
+        match self.reach.take() {
+            Some(reach) if reach.inputs == given => Ok(reach),
+            _ => self.reach(&given),
+        }
+    }
+
     /// Solves the contacts at the ends of the trained loads.
     fn reach(&mut self, given: &Inputs) -> Result<Reach, CoupledError> {
         let (low, high) = self.trained_loads(given)?;
-        let ends =
-            [End::of(self, given, low, 1.0 + DIFFERENCE)?, End::of(self, given, high, 1.0 / (1.0 + DIFFERENCE))?];
-        Ok(Reach { inputs: *given, ends })
+        let mut end = |load: f64, inwards: f64| {
+            let (outputs, inner) = (self.under(given, load)?, self.under(given, load * inwards)?);
+            End::of(outputs, &inner, inwards)
+        };
+        Ok(Reach { inputs: *given, ends: [end(low, INWARDS[0])?, end(high, INWARDS[1])?] })
     }
 
     /// Returns the smallest and the largest load for which the model is trained; those of its range of M (Moes) if it
@@ -134,8 +191,8 @@ impl Coupled {
         let [low, high] = [range.0, range.1].map(|m| given.load * m / own);
         let load = |k: f64| low * (high / low).powf(k / LOOKED_UP as f64);
         let trained = |k: f64| {
-            let problem =
-                self.request(given, load(k)).ok().and_then(|request| Problem::new(&request.point, self.lubricant).ok());
+            let problem = self.request(given, load(k)).ok();
+            let problem = problem.and_then(|request| Problem::new(&request.point, request.lubricant).ok());
             problem.is_some_and(|problem| self.model.trust(&problem) == Trust::Trained)
         };
         let inside: Vec<bool> = (0..=LOOKED_UP).map(|k| trained(k as f64)).collect();
@@ -156,15 +213,14 @@ impl Coupled {
 
     /// Returns the outputs at an approach, given the trained loads. The search is regula falsi in the Illinois variant:
     /// the value of an end point that is retained twice is halved.
-    fn within(&mut self, Reach { ends: [low, high], .. }: &Reach, inputs: &Inputs) -> Result<Outputs, CoupledError> {
+    fn within(&mut self, reach: &Reach, inputs: &Inputs) -> Result<Outputs, CoupledError> {
         let (wanted, kind) = (inputs.approach_m, self.model.contact());
-        let [opening, closing] = exponents(kind);
-        if wanted <= low.approach_m {
-            return Ok(low.beyond(wanted, opening, kind));
+        let exponents = exponents(kind);
+        if let Some(index) = reach.index_beyond(wanted) {
+            return Ok(reach.ends[index].beyond(wanted, exponents[index], kind));
         }
-        if wanted >= high.approach_m {
-            return Ok(high.beyond(wanted, closing, kind));
-        }
+        let [low, high] = &reach.ends;
+        let closing = exponents[1];
         // In this power of the load, the approach is nearly a straight line.
         let place = |end: &End| (end.load.powf(1.0 / closing), end.approach_m - wanted);
         let (mut a, mut b) = (place(low), place(high));

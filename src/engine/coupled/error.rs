@@ -49,6 +49,9 @@ pub enum CoupledError {
     /// No load was found for the approach.
     #[error("no load was found that gives an approach of {} m", Number(*.0))]
     NoLoad(f64),
+    /// The outputs have no derivative.
+    #[error("there is no derivative: {0}")]
+    NoDerivative(&'static str),
     /// Neither the model nor the full solver converged.
     #[error("neither the reduced model nor the full solver found a solution here: {0}")]
     NoSolution(String),

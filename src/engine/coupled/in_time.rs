@@ -77,6 +77,7 @@ impl InTime {
             modulus_pa: point.modulus_pa,
             viscosity_pa_s: point.viscosity_pa_s,
             alpha_per_pa: point.alpha_per_pa,
+            roughness_m: 0.0,
         })
     }
 
@@ -176,6 +177,8 @@ impl InTime {
             friction_force: friction_coefficient * point.load,
             hertz_pressure_pa,
             error_bounds: [f64::NAN; 3],
+            film_ratio_min: f64::NAN,
+            asperity_load_share: f64::NAN,
             trained,
             full: false,
             warnings,

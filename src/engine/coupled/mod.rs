@@ -6,21 +6,25 @@
 //! Functional Mock-up Units.
 
 mod approach;
+mod derivative;
 mod error;
 pub mod fmu;
 mod in_time;
 
+pub use derivative::{Derivative, Input};
 pub use error::CoupledError;
 pub use in_time::{InTime, InTimeState};
 
 use self::approach::Reach;
-use self::error::check_sliding;
+use self::derivative::Neighbourhood;
+use self::error::{check, check_sliding};
 use super::answer::{Solver, answer};
 use crate::scene::{Answer, ContactResult, ContactSpec, Grid, Method, ModelSource, Request, Words};
 use crate::solver::full::{ContactSolver, Problem, Start};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::engineering::Extent;
 use crate::solver::physics::lubricant::Lubricant;
+use crate::solver::physics::surfaces::Roughness;
 use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, Trust};
 use crate::solver::warning::Warning;
 use std::f64::consts::PI;
@@ -56,6 +60,8 @@ pub struct Inputs {
     pub viscosity_pa_s: f64,
     /// Pressure–viscosity coefficient α \[1/Pa\].
     pub alpha_per_pa: f64,
+    /// Composite rms roughness σ \[m\]. Not used if the model is of smooth surfaces.
+    pub roughness_m: f64,
 }
 
 /// Outputs of a contact.
@@ -83,6 +89,10 @@ pub struct Outputs {
     pub hertz_pressure_pa: f64,
     /// 99 % empirical bounds of the relative errors of h_c, h_min and friction; NaN if not available.
     pub error_bounds: [f64; 3],
+    /// Ratio h_min/σ of the minimum film thickness to the roughness; NaN for smooth surfaces.
+    pub film_ratio_min: f64,
+    /// Share of the load that asperities carry, 0…1; NaN for smooth surfaces.
+    pub asperity_load_share: f64,
     /// True if the contact is inside the trained range.
     pub trained: bool,
     /// True if the full solver was used because the model has no solution.
@@ -94,7 +104,7 @@ pub struct Outputs {
 impl Outputs {
     /// Converts a result; `None` without a solution.
     fn of(result: ContactResult) -> Option<Self> {
-        let ContactResult { point, scalars, traction, reduced, warnings, .. } = result;
+        let ContactResult { point, scalars, traction, reduced, mixed, warnings, .. } = result;
         let (scalars, friction_coefficient, scale) = (scalars?, traction?, point.film_scale_m());
         let error = reduced.as_ref().and_then(|facts| facts.error);
         let bounds = error.map_or([None; 3], |error| [Some(error.h_c), Some(error.h_min), error.traction]);
@@ -110,6 +120,8 @@ impl Outputs {
             friction_force: friction_coefficient * point.load,
             hertz_pressure_pa: point.hertz().pressure_pa,
             error_bounds: bounds.map(|error| error.map_or(f64::NAN, |error| error.bound)),
+            film_ratio_min: mixed.map_or(f64::NAN, |mixed| mixed.film_ratio_min),
+            asperity_load_share: mixed.map_or(f64::NAN, |mixed| mixed.asperity_load_share),
             trained: reduced.as_ref().is_some_and(|facts| facts.trained),
             full: reduced.is_none(),
             warnings,
@@ -151,6 +163,20 @@ fn approach_reference(point: &OperatingPoint) -> f64 {
 }
 
 impl Inputs {
+    /// All inputs zero.
+    const NONE: Self = Self {
+        radius_m: 0.0,
+        radius_ratio: 0.0,
+        speed_m_per_s: 0.0,
+        slide_to_roll_ratio: 0.0,
+        load: 0.0,
+        approach_m: 0.0,
+        modulus_pa: 0.0,
+        viscosity_pa_s: 0.0,
+        alpha_per_pa: 0.0,
+        roughness_m: 0.0,
+    };
+
     /// Returns the contact that the inputs define under a load.
     fn stated(&self, kind: ContactKind, load: f64) -> ContactSpec {
         let ellipse = kind == ContactKind::Point && self.radius_ratio != 1.0;
@@ -178,6 +204,7 @@ pub struct Coupled {
     pressed: Pressed,
     /// Trained loads of the last inputs, if an approach is given.
     reach: Option<Reach>,
+    neighbourhood: Neighbourhood,
 }
 
 impl Coupled {
@@ -191,7 +218,8 @@ impl Coupled {
         }
         let online = Online::new(Arc::clone(&model), ReducedOptions::default());
         let lubricant = model.domain.lubricant;
-        Ok(Self { model, online, full: None, lubricant, pressed, reach: None })
+        let (full, reach, neighbourhood) = (None, None, Neighbourhood::default());
+        Ok(Self { model, online, full, lubricant, pressed, reach, neighbourhood })
     }
 
     /// Returns which input presses the bodies together.
@@ -221,6 +249,7 @@ impl Coupled {
             modulus_pa: point.modulus_pa,
             viscosity_pa_s: point.viscosity_pa_s,
             alpha_per_pa: own.lubricant.own_coefficient().unwrap_or(point.alpha_per_pa),
+            roughness_m: own.lubricant.roughness.map_or(0.0, |rough| rough.sigma),
         };
         let approach_m = own.solve(&inputs).ok()?.approach_m;
         Some(Inputs { approach_m, ..inputs })
@@ -250,13 +279,26 @@ impl Coupled {
     /// Returns the request for inputs under a load.
     fn request(&self, inputs: &Inputs, load: f64) -> Result<Request, CoupledError> {
         check_sliding(inputs.slide_to_roll_ratio)?;
-        let alpha = self.lubricant.own_coefficient().is_none().then_some(inputs.alpha_per_pa);
+        let lubricant = self.lubricant_of(inputs)?;
+        let alpha = lubricant.own_coefficient().is_none().then_some(inputs.alpha_per_pa);
         let stated = ContactSpec { alpha, ..inputs.stated(self.model.contact(), load) };
-        let point = stated
-            .operating_point(&self.lubricant)
-            .map_err(|why| CoupledError::Stated(why.in_words(Words::Variables)))?;
+        let point =
+            stated.operating_point(&lubricant).map_err(|why| CoupledError::Stated(why.in_words(Words::Variables)))?;
         let (grid, grid_model, method) = (Grid::Model, ModelSource::Embedded, Method::EMBEDDED);
-        Ok(Request { point, lubricant: self.lubricant, grid, grid_model, method, extent: Extent::default() })
+        Ok(Request { point, lubricant, grid, grid_model, method, extent: Extent::default() })
+    }
+
+    /// Returns the lubricant of the model between surfaces with the roughness of the inputs.
+    fn lubricant_of(&self, inputs: &Inputs) -> Result<Lubricant, CoupledError> {
+        let Some(trained) = self.lubricant.roughness else { return Ok(self.lubricant) };
+        check(
+            "roughness",
+            inputs.roughness_m,
+            " m",
+            (" above zero and at most 0.001 m", |sigma| sigma > 0.0 && sigma <= 1e-3),
+        )?;
+        let roughness = Some(Roughness { sigma: inputs.roughness_m, ..trained });
+        Ok(Lubricant { roughness, ..self.lubricant })
     }
 
     /// Solves in full on the model's grid.

@@ -4,6 +4,7 @@ mod attempt;
 mod fields;
 mod proof;
 mod settings;
+mod tangent;
 
 pub use settings::{ReducedError, ReducedOptions, Starts};
 
@@ -62,7 +63,11 @@ impl Online {
 
     /// Builds the operators for a contact, so that the next solve does not have to.
     pub fn prepare(&mut self, point: &OperatingPoint) {
-        let index = self.model.window_for(point);
+        self.prepare_window(self.model.window_for(point));
+    }
+
+    /// Builds the operators of a local model.
+    fn prepare_window(&mut self, index: usize) {
         if let (Some(window), Some(cell)) = (self.model.windows.get(index), self.windows.get(index)) {
             cell.get_or_init(|| operators_of(&self.model, window, &self.options));
         }
@@ -116,7 +121,7 @@ impl Online {
         lubricant: Lubricant,
         rows: RowObserver<'_>,
     ) -> Result<ReducedSolution, ReducedError> {
-        self.solved(point, lubricant, Watch { rows: Some(rows), wish: &() })
+        self.solved(point, lubricant, Watch { rows: Some(rows), ..Watch::of(&()) })
     }
 
     fn solved(
@@ -272,7 +277,7 @@ impl Online {
         self.prepare(&problem.point);
         let operators = self.windows.get_mut(index).and_then(OnceCell::get_mut).ok_or(ReducedError::Empty)?;
         let guess = start::carried(window, snapshot, point);
-        let watch = &mut Watch { rows: Some(observer), wish: &() };
+        let watch = &mut Watch { rows: Some(observer), ..Watch::of(&()) };
         let found = attempt(window, operators, &problem, &guess, usize::MAX, &self.options, watch)?;
         Ok(self.keep(&problem, index, found))
     }
@@ -280,11 +285,18 @@ impl Online {
     /// Stores a solution as the next initial guess and returns it.
     fn keep(&mut self, problem: &Problem, window: usize, found: Found) -> ReducedSolution {
         let theta = found.theta().to_vec();
+        let point = self.model.domain.as_trained(&problem.point, &problem.lubricant);
+        let (coefficients, fronts) = (found.coefficients.clone(), found.fronts.clone());
+        self.former.remember(Known { window, point, coefficients, h_c: found.h_c, fronts, theta });
+        self.solution_of(problem, window, found)
+    }
+
+    /// Returns a solution with its trust and its error estimate.
+    fn solution_of(&self, problem: &Problem, window: usize, found: Found) -> ReducedSolution {
         let Found { coefficients, h_0, h_c, iterations, residual, traction, fronts, heat } = found;
         let domain = &self.model.domain;
-        let (point, known) = (domain.as_trained(&problem.point, &problem.lubricant), coefficients.clone());
+        let point = domain.as_trained(&problem.point, &problem.lubricant);
         let knows_traction = domain.knows_traction(problem);
-        self.former.remember(Known { window, point, coefficients: known, h_c, fronts: fronts.clone(), theta });
         let trust = self.model.trust(problem);
         let as_measured = trust == Trust::Trained && self.options == ReducedOptions::default();
         let mut solved = ReducedSolution {

@@ -44,23 +44,36 @@ fn share_of_tolerance(problem: &Problem, h_c: f64, options: &ReducedOptions) -> 
     if newtonian && options.starts == Starts::Explorer { (film / THICK).clamp(LEAST_SHARE, 1.0) } else { 1.0 }
 }
 
-/// Observers of an attempt: `rows` receives the sampled equations of every iterate, and `wish` is checked for
+/// Observers and conditions of an attempt: `rows` receives the sampled equations of every iterate, and `wish` is checked for
 /// cancellation before each attempt.
 pub(super) struct Watch<'a> {
     pub rows: Option<RowObserver<'a>>,
     pub wish: &'a dyn Observer,
+    /// True if the cavitation boundary stays where it is in the initial guess.
+    pub holds_front: bool,
 }
 
 impl<'a> Watch<'a> {
     /// Creates a watch without an observer of iterates.
     pub fn of(wish: &'a dyn Observer) -> Self {
-        Self { rows: None, wish }
+        Self { rows: None, wish, holds_front: false }
     }
 
     /// Returns the observer of rows for one iteration.
     fn rows(&mut self) -> Option<RowObserver<'_>> {
         self.rows.as_mut().map(|rows| &mut **rows as RowObserver<'_>)
     }
+}
+
+/// Returns the case of a problem for a local model.
+pub(super) fn case_of<'a>(window: &Window, problem: &'a Problem, options: &ReducedOptions, stop: Stop) -> Case<'a> {
+    // With complementarity the boundary alone determines the cavitated region.
+    let penalty = match window.cavitation {
+        Cavitation::Penalty => options.penalty.unwrap_or(window.penalty),
+        Cavitation::Complementarity | Cavitation::MassConserving { .. } => 0.0,
+    };
+    let scale = window.grid.scale(problem.moes);
+    Case { problem, scale, curvature: 1.0, penalty, prescribed: false, stop }
 }
 
 /// Runs Newton's method from an initial guess, within `limit` steps and the options' own limit.
@@ -76,19 +89,13 @@ pub(super) fn attempt(
     if watch.wish.cancelled() {
         return Err(ReducedError::Cancelled);
     }
-    let scale = window.grid.scale(problem.moes);
     let mut coefficients = vec![0.0; operators.modes()];
     coefficients.iter_mut().zip(&start.coefficients).for_each(|(c, known)| *c = *known);
-    // With complementarity the boundary alone determines the cavitated region.
-    let penalty = match window.cavitation {
-        Cavitation::Penalty => options.penalty.unwrap_or(window.penalty),
-        Cavitation::Complementarity | Cavitation::MassConserving { .. } => 0.0,
-    };
     let tolerance = options.tolerance * share_of_tolerance(problem, start.h_c, options);
-    let stop = Stop::new(tolerance, options.max_newton.min(limit));
-    let case = Case { problem, scale, curvature: 1.0, penalty, prescribed: false, stop };
+    let case = case_of(window, problem, options, Stop::new(tolerance, options.max_newton.min(limit)));
+    let scale = case.scale;
     let Guess { coefficients: known, fronts, theta, .. } = start;
-    operators.begin(&case, &Start { window, modes: known.len(), fronts: Some(fronts), theta });
+    operators.begin(&case, &Start { window, modes: known.len(), fronts: Some(fronts), held: watch.holds_front, theta });
     operators.carry_load(problem, scale, &mut coefficients);
     operators.aim(window, scale);
     // H(0) = H₀ − ½ ln s + s δ(0).

@@ -182,7 +182,8 @@ impl Part for OnAsperities {
         });
         let last = self.rows.last().map_or(self.first, |row| row.node);
         let front = start.fronts.and_then(|fronts| fronts.first()).copied().unwrap_or(last);
-        (self.front, self.down, self.turns) = (front.clamp(self.first, last), None, 0);
+        let turns = if start.held { TURNS } else { 0 };
+        (self.front, self.down, self.turns) = (front.clamp(self.first, last), None, turns);
         self.look_near(system);
     }
 

@@ -45,6 +45,8 @@ pub(crate) struct Start<'a> {
     /// First cavitated column of each line along X. `None` deactivates the cavitation boundary: the penalty then acts
     /// on all pressures.
     pub fronts: Option<&'a [usize]>,
+    /// True if the cavitation boundary stays there.
+    pub held: bool,
     /// Temperature rise θ at the stations of a thermal contact; empty for a cold start.
     pub theta: &'a [Profile],
 }

@@ -87,6 +87,8 @@ struct Front {
     behind: Mat<f64>,
     /// True if B is inactive: a penalty acts on all pressures, as far as there are modes.
     idle: bool,
+    /// True if B stays where it is.
+    held: bool,
     /// Index of the stored K V in the Jacobian.
     loaded: usize,
     /// Line and column of each sampled equation.
@@ -184,6 +186,7 @@ impl Front {
             restraint: 0.0,
             behind: Mat::zeros(modes, modes),
             idle: false,
+            held: false,
             loaded: 0,
             aimed: None,
             passing: Vec::with_capacity(nodes.len()),
@@ -268,6 +271,7 @@ impl Front {
 impl Part for Front {
     fn begin(&mut self, system: &mut SampledSystem, _: &Case<'_>, start: &Start<'_>) {
         self.put(system, start.fronts);
+        self.held = start.held;
     }
 
     fn aim(&mut self, system: &mut SampledSystem, at: Centre<'_>) {

@@ -16,6 +16,7 @@ mod readings;
 mod sampled_system;
 mod shaped;
 mod support;
+mod tangent;
 #[cfg(test)]
 mod tests;
 mod traction;

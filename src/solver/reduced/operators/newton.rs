@@ -22,7 +22,7 @@ const FILM_STEP: f64 = 1e3;
 
 /// Purpose of an evaluation of the rows.
 #[derive(Clone, Copy, PartialEq)]
-enum Wanted {
+pub(super) enum Wanted {
     /// A step with new derivatives. With `exact`, the deformation K V of the modes is taken at the boundary's current
     /// position even for many lines, instead of a nearby position.
     Step { exact: bool },
@@ -148,7 +148,7 @@ impl Operators {
     }
 
     /// Evaluates the sampled equations at the fields; returns e_f^I.
-    fn evaluate(&mut self, case: &Case<'_>, state: State<'_>, wanted: Wanted) -> f64 {
+    pub(super) fn evaluate(&mut self, case: &Case<'_>, state: State<'_>, wanted: Wanted) -> f64 {
         let Self { system, parts, deformation, .. } = self;
         let scale = case.scale;
         system.lay_films(case, state.h_0);
@@ -172,7 +172,7 @@ impl Operators {
 }
 
 /// Computes P, K P and the gradients of coefficients at the support, one after the other.
-fn spread(system: &mut SampledSystem, parts: &mut [Box<dyn Part>], coefficients: &[f64]) {
+pub(super) fn spread(system: &mut SampledSystem, parts: &mut [Box<dyn Part>], coefficients: &[f64]) {
     let mut fields = std::mem::take(&mut system.fields);
     system.basis.spread(system.support.own, coefficients, &mut fields);
     parts.iter_mut().for_each(|part| part.spread(system, coefficients, &mut fields));

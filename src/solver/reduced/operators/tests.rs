@@ -91,7 +91,7 @@ fn a_part_changes_node_laws_and_row_derivatives() {
         operators.parts.push(Box::new(Springs { amplitude, height, fluid, slopes, phases }));
         let (mut coefficients, mut h_0) = (known.coefficients.clone(), known.h_0);
         let modes = coefficients.len();
-        operators.begin(&case, &Start { window, modes, fronts: Some(&[]), theta: &[] });
+        operators.begin(&case, &Start { window, modes, fronts: Some(&[]), held: false, theta: &[] });
         operators.aim(window, scale);
         let outcome = operators.newton(&case, (&mut coefficients, &mut h_0), None);
         let h_c = h_0 - 0.5 * scale.ln() + operators.lifted(&coefficients);

@@ -236,7 +236,7 @@ impl<'a> ReducedMarch<'a> {
         for (held, softness) in attempts {
             let case = Case { prescribed: self.prescribed, ..case(at, softness * window.penalty, max_newton) };
             let fronts = held.then_some(self.front.as_slice());
-            operators.begin(&case, &Start { window, modes: usize::MAX, fronts, theta: &[] });
+            operators.begin(&case, &Start { window, modes: usize::MAX, fronts, held: false, theta: &[] });
             self.coefficients.copy_from_slice(&self.start);
             self.h_0 = h_0;
             let state = (self.coefficients.as_mut_slice(), &mut self.h_0);

@@ -20,7 +20,7 @@ impl Front {
         (scale, omega): (f64, f64),
         coefficients: &[f64],
     ) -> Moved {
-        if self.idle {
+        if self.idle || self.held {
             return Moved::Still;
         }
         let SampledSystem { nodes, stencils, geometry, step_fields: step, fields, load_row, lift, transient, .. } =
