@@ -7,7 +7,7 @@ use crate::driver::{
 };
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
-use egui_kittest::kittest::Queryable as _;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use ehl_explorer::app::Explorer;
 use ehl_explorer::engine::{Workbench, run_scene};
 use ehl_explorer::scene::{Scene, Study};
