@@ -47,14 +47,31 @@ pub(super) struct End {
     outputs: Outputs,
 }
 
+/// Smallest or largest trained load.
+#[derive(Clone, Copy)]
+enum Side {
+    Low,
+    High,
+}
+
+impl Side {
+    /// Returns the value of this side.
+    fn of<T>(self, [low, high]: [T; 2]) -> T {
+        match self {
+            Self::Low => low,
+            Self::High => high,
+        }
+    }
+}
+
 impl Reach {
-    /// Returns the index of the end that an approach is beyond: 0 for the smallest load, 1 for the largest one.
-    fn index_beyond(&self, wanted: f64) -> Option<usize> {
+    /// Returns the end that an approach is beyond; `None` if it is between both.
+    fn beyond(&self, wanted: f64) -> Option<(Side, &End)> {
         let [low, high] = &self.ends;
         if wanted <= low.approach_m {
-            return Some(0);
+            return Some((Side::Low, low));
         }
-        (wanted >= high.approach_m).then_some(1)
+        (wanted >= high.approach_m).then_some((Side::High, high))
     }
 }
 
@@ -63,8 +80,7 @@ pub(super) struct Beyond {
     pub end: End,
     /// Factor of the load from which the slope at the end is computed.
     pub inwards: f64,
-    /// Index of the end: 0 for the smallest load, 1 for the largest one.
-    index: usize,
+    side: Side,
 }
 
 /// Factors of the loads at both ends from which their slopes are computed.
@@ -127,7 +143,7 @@ impl End {
 impl Beyond {
     /// Returns the outputs at an approach beyond a state of this end.
     pub fn outputs(&self, end: &End, wanted: f64, kind: ContactKind) -> Outputs {
-        end.beyond(wanted, exponents(kind)[self.index], kind)
+        end.beyond(wanted, self.side.of(exponents(kind)), kind)
     }
 }
 
@@ -144,8 +160,8 @@ impl Coupled {
     /// Returns the end of the trained loads that the approach of the inputs is beyond; `None` if it is between them.
     pub(super) fn beyond(&mut self, inputs: &Inputs) -> Result<Option<Beyond>, CoupledError> {
         let reach = self.take_reach(inputs)?;
-        let index = reach.index_beyond(inputs.approach_m);
-        let found = index.map(|index| Beyond { end: reach.ends[index].clone(), inwards: INWARDS[index], index });
+        let found = reach.beyond(inputs.approach_m);
+        let found = found.map(|(side, end)| Beyond { end: end.clone(), inwards: side.of(INWARDS), side });
         self.reach = Some(reach);
         Ok(found)
     }
@@ -153,7 +169,7 @@ impl Coupled {
     /// Returns the load of an end for other inputs.
     pub(super) fn load_of(&self, beyond: &Beyond, inputs: &Inputs) -> Result<f64, CoupledError> {
         let (low, high) = self.trained_loads(&self.given(inputs))?;
-        Ok([low, high][beyond.index])
+        Ok(beyond.side.of([low, high]))
     }
 
     /// Returns the inputs without load and approach, on which the trained loads depend.
@@ -216,11 +232,10 @@ impl Coupled {
     fn within(&mut self, reach: &Reach, inputs: &Inputs) -> Result<Outputs, CoupledError> {
         let (wanted, kind) = (inputs.approach_m, self.model.contact());
         let exponents = exponents(kind);
-        if let Some(index) = reach.index_beyond(wanted) {
-            return Ok(reach.ends[index].beyond(wanted, exponents[index], kind));
+        if let Some((side, end)) = reach.beyond(wanted) {
+            return Ok(end.beyond(wanted, side.of(exponents), kind));
         }
-        let [low, high] = &reach.ends;
-        let closing = exponents[1];
+        let ([low, high], [_, closing]) = (&reach.ends, exponents);
         // In this power of the load, the approach is nearly a straight line.
         let place = |end: &End| (end.load.powf(1.0 / closing), end.approach_m - wanted);
         let (mut a, mut b) = (place(low), place(high));

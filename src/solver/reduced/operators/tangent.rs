@@ -59,7 +59,7 @@ impl Operators {
             if size <= (CORRECTED * norm(&direction)).max(NEGLIGIBLE.0 * whole) {
                 return Some(direction);
             }
-            if !(size < former) {
+            if size.is_nan() || size >= former {
                 return (size <= NEGLIGIBLE.1 * whole).then_some(direction);
             }
             former = size;
