@@ -26,7 +26,6 @@ fn reduced_rough_circles_are_the_full_ones() {
             assert_eq!(solved.trust, Trust::Trained);
             let truth = full.solve(&point, spec.lubricant, Start::Cold, &()).unwrap();
             let found = errors(&online.reconstruct(&solved).unwrap(), &truth);
-            eprintln!("{sampling:?} {found:?} {} its; truth its {}", solved.iterations, truth.report.newton_iterations);
             assert!(found[0] < limits[0] && found[1] < limits[1], "{sampling:?}: {found:?} at {:?}", point.moes());
         }
     }
@@ -98,7 +97,6 @@ fn errors_of_rough_circles_are_bounded_and_local_models_blend() {
         assert!(film < 5e-2 && share < 2e-2, "{film} {share} at {:?}", point.moes());
         let friction = (own.traction_coefficient() / truth.traction_coefficient() - 1.0).abs();
         let bounds = [estimate.h_c, estimate.load_share.unwrap(), whole.traction.unwrap()];
-        eprintln!("{film:.1e} {share:.1e} {friction:.1e} {:.1e?} {}", bounds.map(|b| b.bound), solved.iterations);
         for ((error, bound), held) in [film, share, friction].into_iter().zip(bounds).zip(&mut held) {
             *held += usize::from(error <= bound.bound);
         }

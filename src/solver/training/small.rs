@@ -338,9 +338,9 @@ pub(crate) fn rough_circles(sampling: Sampling) -> TrainingSpec {
         Axis::new(Quantity::SmoothFilmRatio, (0.5, 2.0)),
     ])
     .limited([(Quantity::RoughnessNumber, (0.0, 0.5))]);
-    let plan = Plan::FarthestPoint { snapshots: 60 };
+    let plan = Plan::FarthestPoint { snapshots: 80 };
     let spec = TrainingSpec::new(range, m, GridSpec::Plane(POINT_GRID), plan);
-    let (pressure_loss, deformation_loss, rows_per_mode) = (1e-7, 0.1, 4.0);
+    let (pressure_loss, deformation_loss, rows_per_mode) = (1e-8, 0.1, 4.0);
     TrainingSpec { sampling, pressure_loss, deformation_loss, rows_per_mode, evidence: 0, ..spec }.on_surfaces(None)
 }
 
