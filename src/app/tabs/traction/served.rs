@@ -162,3 +162,17 @@ fn untrained(domain: &Domain, key: &Key, varied: Varied, ends: (f64, f64)) -> Re
     }
     Ok(untrained)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rough_curves_without_a_model_are_full_for_lines_only() {
+        let ends = (0.1, 10.0);
+        let (all, served) = of_rough(ContactKind::Line, ends, None);
+        assert!(all == ends && served.is_ok_and(|served| served == Served::IN_FULL));
+        let (_, refused) = of_rough(ContactKind::Point, ends, None);
+        assert!(refused.is_err_and(|why| why.to_string().contains("circular contacts covers no part")));
+    }
+}
