@@ -195,9 +195,6 @@ fn rough(spec: &TrainingSpec) -> Result<(), Refused> {
     if laws.roughness.is_none() {
         return refuse("range.axes.SmoothFilmRatio", "needs the laws of rough surfaces");
     }
-    if range.of_ellipses() {
-        return refuse("range.axes.RadiusRatio", "must be left out for rough surfaces");
-    }
     if spec.contact() == ContactKind::Point && laws.roughness.is_some_and(|roughness| roughness.peklenik != 1.0) {
         return refuse("roughness.peklenik", "must be 1 for a reduced model of rough circular contacts");
     }

@@ -65,14 +65,14 @@ fn trainings_of_rough_ellipses_and_ridges_are_refused() {
         spec.check().unwrap_err().to_string()
     };
     let ellipses = refused(&|spec| spec.range.axes.push(Axis::new(Quantity::RadiusRatio, (0.5, 2.0))));
-    assert!(ellipses.starts_with("cavitation must be the penalty"), "{ellipses}");
+    assert!(ellipses.starts_with("`cavitation` must be the penalty"), "{ellipses}");
     let ridges = refused(&|spec| {
         let roughness = Roughness { peklenik: 3.0, ..Roughness::new(REFERENCE_ROUGHNESS_M) };
         spec.lubricant.roughness = Some(roughness);
     });
-    assert!(ridges.starts_with("roughness.peklenik must be 1"), "{ridges}");
+    assert!(ridges.starts_with("`roughness.peklenik` must be 1"), "{ridges}");
     let automatic = refused(&|spec| spec.windows = Windows::Automatic { modes: 60 });
-    assert!(automatic.starts_with("windows must be"), "{automatic}");
+    assert!(automatic.starts_with("`windows` must be"), "{automatic}");
 }
 
 #[test]
