@@ -122,7 +122,10 @@ fn wanted(observer: &dyn Observer) -> Result<(), ModelFileError> {
 
 /// Refuses local models that are inconsistent with the trained range.
 fn check_windows(domain: &Domain, windows: &[WindowEntry]) -> Result<(), ModelFileError> {
-    let (ellipses, anchored) = (domain.space.of_ellipses(), domain.space.varies_lubricant() && !domain.is_rough());
+    let ellipses = domain.space.of_ellipses();
+    // The local models of rough surfaces lie around anchors or not.
+    let around = !domain.is_rough() || windows.iter().any(|window| window.anchor.is_some());
+    let anchored = domain.space.varies_lubricant() && around;
     // Thermal elliptical models are lubricant-parameterised, and none is shear-thinning.
     if ellipses && (domain.is_shear_thinning() || (domain.heats() && !anchored)) {
         return Err(damaged("its parts"));

@@ -7,10 +7,10 @@ use crate::solver::discrete::grid::GridSpec;
 use crate::solver::parameters::Quantity;
 use crate::solver::physics::contact::{ContactKind, Moes};
 use crate::solver::physics::lubricant::{Cavitation, ShearLaw};
-use crate::solver::reduced::{Online, PressureModes, ReducedModel, ReducedOptions, Sampling, Scheme};
+use crate::solver::reduced::{Online, PressureModes, ReducedModel, ReducedOptions, Sampling, Scheme, Window};
 use crate::solver::training::small::{
     ellipses, heated_balls, heated_bounded, heated_ellipses_bounded, heated_oils_bounded, line, oils, oils_of_points,
-    rough_bounded, sliding_oils, trained, with_ends,
+    rough_bounded, rough_oils_of_points, sliding_oils, trained, with_ends,
 };
 use crate::solver::training::{TrainingSpec, WindowSpec, Windows, random_points, train};
 use std::path::{Path, PathBuf};
@@ -197,29 +197,40 @@ fn heat_survives_a_round_trip_and_must_fit_the_windows() {
 
 #[test]
 fn rough_surfaces_survive_a_round_trip_with_their_bounds() {
-    let spec = rough_bounded();
-    let model = trained(&spec);
-    let bytes = to_bytes(&model).unwrap();
-    let read = Arc::new(from_bytes(&bytes).unwrap());
-    assert!(read.domain == model.domain && read.domain.is_rough() && to_bytes(&read).unwrap() == bytes);
-    assert_eq!(read.domain.lubricant.roughness, spec.lubricant.roughness);
-    assert!(read.windows[0].snapshots.iter().all(|snapshot| snapshot.fronts.len() == 1));
-    let point = random_points(&spec.range, spec.contact(), 1, 7)[0];
-    let solved = |model: &Arc<ReducedModel>| {
-        Online::new(Arc::clone(model), ReducedOptions::default()).solve(&point, spec.lubricant).unwrap()
-    };
-    let (own, again) = (solved(&model), solved(&read));
-    assert!((own.h_c / again.h_c - 1.0).abs() < 1e-6, "{} {}", own.h_c, again.h_c);
-    assert!(again.error.unwrap().load_share.is_some());
-    let lies: [&dyn Fn(&mut ReducedModel); 2] = [&|m| lie_about(m, Quantity::SmoothFilmRatio, (f64::NAN, 2.0)), &|m| {
-        m.domain.lubricant.roughness.iter_mut().for_each(|rough| rough.sigma = -1.0)
-    }];
-    for lie in lies {
-        let mut wrong = ReducedModel::clone(&model);
-        lie(&mut wrong);
-        let refused = from_bytes(&to_bytes(&wrong).unwrap()).err();
-        assert!(matches!(refused, Some(ModelFileError::Damaged { what: "its domain" })), "{refused:?}");
+    for spec in [rough_bounded(), rough_oils_of_points()] {
+        let model = trained(&spec);
+        let bytes = to_bytes(&model).unwrap();
+        let read = Arc::new(from_bytes(&bytes).unwrap());
+        assert!(read.domain == model.domain && read.domain.is_rough() && to_bytes(&read).unwrap() == bytes);
+        assert_eq!(read.domain.lubricant.roughness, spec.lubricant.roughness);
+        let (own, lines) = (&read.windows[0], read.windows[0].grid.lines());
+        assert!(own.snapshots.iter().all(|snapshot| snapshot.fronts.len() == lines));
+        assert_eq!(own.anchor.is_some(), spec.range.varies_lubricant());
+        let point = random_points(&spec.range, spec.contact(), 1, 7)[0];
+        let solved = |model: &Arc<ReducedModel>| {
+            Online::new(Arc::clone(model), ReducedOptions::default()).solve(&point, spec.lubricant).unwrap()
+        };
+        let (own, again) = (solved(&model), solved(&read));
+        assert!((own.h_c / again.h_c - 1.0).abs() < 1e-6, "{} {}", own.h_c, again.h_c);
+        assert!(again.error.unwrap().load_share.is_some());
+        let lies: [Lie<'_>; 3] = [
+            (&|m| lie_about(m, Quantity::SmoothFilmRatio, (f64::NAN, 2.0)), "its domain"),
+            (&|m| m.domain.lubricant.roughness.iter_mut().for_each(|rough| rough.sigma = -1.0), "its domain"),
+            // Either all local models have anchors, or none has.
+            (&|m| m.windows.extend(m.windows.last().map(|w| Window { anchor: other_anchor(w), ..w.clone() })), "oils"),
+        ];
+        for (lie, wanted) in lies {
+            let mut wrong = ReducedModel::clone(&model);
+            lie(&mut wrong);
+            let refused = from_bytes(&to_bytes(&wrong).unwrap()).err();
+            assert!(matches!(refused, Some(ModelFileError::Damaged { what }) if what == wanted), "{refused:?}");
+        }
     }
+}
+
+/// Returns an anchor for a local model without one, and none for others.
+fn other_anchor(window: &Window) -> Option<Moes> {
+    window.anchor.is_none().then_some(Moes { m: 20.0, l: 8.0 })
 }
 
 #[test]

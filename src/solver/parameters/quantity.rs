@@ -43,6 +43,8 @@ pub enum Quantity {
     /// Film ratio λ = h/σ of the smooth contact: its central film thickness h by Moes' formula, divided by the
     /// composite roughness σ. Contacts of a space have the reference roughness [`REFERENCE_ROUGHNESS_M`].
     SmoothFilmRatio,
+    /// Composite roughness S = σR/a² in units of the film thickness; of the reference roughness in a space.
+    RoughnessNumber,
     /// Sliding speed |SRR| u_m \[m/s\].
     SlidingSpeed,
     /// κ₁ = p_H a/R \[Pa\], (3.27).
@@ -141,6 +143,7 @@ impl Quantity {
             Self::RoelandsExponent => ("roelands-exponent", "Roelands’ exponent z", "Exponent {z}", ("z", ""), "Roelands’ z", "", K::Number, (0.05, 2.0), Scale::Linear),
             Self::FilmThickness => ("film-thickness", "Central film thickness H_c by Moes’ formula", "Film {H_c}", ("H", "c"), "H_c by Moes’ formula", "", K::Number, (0.0, 1e6), Scale::Log),
             Self::SmoothFilmRatio => ("smooth-film-ratio", "Film ratio λ of the smooth contact", "Film ratio {λ}", ("λ", ""), "λ of the smooth film", "", K::Number, (1e-3, 1e3), Scale::Log),
+            Self::RoughnessNumber => ("roughness-number", "Roughness S = σR/a²", "Roughness {S}", ("S", ""), "S = σR/a²", "", K::Number, (0.0, 1e3), Scale::Log),
             Self::SlidingSpeed => ("sliding-speed", "Sliding speed SRR u_m [m/s]", "Sliding speed", ("Δu", ""), "the sliding speed SRR u_m", " m/s", K::Speed, (0.0, 1e3), Scale::Linear),
             Self::StressUnit => ("stress-unit", "Unit of shear stress κ₁ [Pa]", "Stress {κ_1}", ("κ", "1"), "κ₁ = p_H a/R", " Pa", K::Stress, (0.0, 1e15), Scale::Log),
             Self::GradientStress => ("gradient-stress", "Shear stress by the pressure gradient [Pa]", "Gradient stress", ("τ", "p"), "the shear stress by the pressure gradient", " Pa", K::Stress, (0.0, 1e12), Scale::Log),
@@ -264,9 +267,10 @@ impl Quantity {
                 ShearLaw::Eyring { critical_stress, .. } => Some(critical_stress),
                 ShearLaw::Newtonian | ShearLaw::Carreau { .. } | ShearLaw::Ellis { .. } => None,
             },
-            Self::SmoothFilmRatio => {
+            Self::SmoothFilmRatio | Self::RoughnessNumber => {
                 let sigma = lubricant.roughness.map(|roughness| roughness.sigma).filter(|sigma| *sigma > 0.0)?;
-                Some(smooth_film_m(point) / sigma)
+                let number = sigma / point.film_scale_m();
+                Some(if self == Self::RoughnessNumber { number } else { smooth_film_m(point) / sigma })
             }
             Self::InletTemperature => Some(heat()?.inlet_temperature),
             Self::ViscosityTemperature => Some(heat()?.oil.viscosity_temperature),
@@ -304,6 +308,7 @@ impl Quantity {
             Self::RoelandsExponent => roelands_exponent(point),
             Self::FilmThickness => expected_film(point),
             Self::SmoothFilmRatio => smooth_film_m(point) / REFERENCE_ROUGHNESS_M,
+            Self::RoughnessNumber => REFERENCE_ROUGHNESS_M / point.film_scale_m(),
             Self::SlidingSpeed => (point.sliding.slide_to_roll_ratio * point.speed_m_per_s).abs(),
             Self::StressUnit => point.gradient_stress_pa(),
             Self::GradientStress => point.gradient_stress_pa() * expected_film(point),
@@ -419,6 +424,9 @@ mod tests {
             let scaled = |point, sigma| ScaledRoughness::new(rough(sigma).roughness, point).unwrap().sigma;
             assert!((scaled(&here, sigma) / scaled(&moved, REFERENCE_ROUGHNESS_M) - 1.0).abs() < 1e-12);
             assert_eq!(ratio.of_contact(&here, &Lubricant::default()), None);
+            let number = Quantity::RoughnessNumber;
+            assert!((number.of(&moved).unwrap() / scaled(&here, sigma) - 1.0).abs() < 1e-12);
+            assert!((number.of_contact(&here, &rough(sigma)).unwrap() / scaled(&here, sigma) - 1.0).abs() < 1e-12);
         }
     }
 

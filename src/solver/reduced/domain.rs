@@ -172,8 +172,10 @@ impl Domain {
     /// the reduced equations are exact.
     pub fn strange_shape(&self, problem: &Problem) -> Option<Outside> {
         let shapes = |quantity: Quantity| {
-            use Quantity::{FilmThickness, GradientStress, HertzPressure, L, M, RadiusRatio, SmoothFilmRatio};
-            matches!(quantity, M | L | HertzPressure | RadiusRatio | FilmThickness | GradientStress | SmoothFilmRatio)
+            use Quantity::{FilmThickness, GradientStress, HertzPressure, L, M, RadiusRatio};
+            use Quantity::{RoughnessNumber, SmoothFilmRatio};
+            matches!(quantity, M | L | HertzPressure | RadiusRatio | FilmThickness | GradientStress)
+                || matches!(quantity, SmoothFilmRatio | RoughnessNumber)
         };
         self.other_shape(&problem.point).or_else(|| self.outside(problem, shapes))
     }

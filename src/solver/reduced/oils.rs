@@ -116,9 +116,10 @@ impl ReducedSolution {
                 }
             };
             let (h_c, h_min, state) = (quantity(&|e| e.h_c), quantity(&|e| e.h_min), quantity(&|e| e.state));
-            // All solutions have this estimate or none, since they are of one contact.
+            // All solutions have these estimates or none, since they are of one contact.
             let traction = mine.traction.map(|own| quantity(&|e| e.traction.unwrap_or(own)));
-            Some(ErrorEstimate { h_c, h_min, state, traction, rise: None, load_share: None })
+            let load_share = mine.load_share.map(|own| quantity(&|e| e.load_share.unwrap_or(own)));
+            Some(ErrorEstimate { h_c, h_min, state, traction, rise: None, load_share })
         });
         self.beside = beside;
     }

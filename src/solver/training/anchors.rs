@@ -105,7 +105,8 @@ pub(super) fn in_common(
         if shared == 0 {
             return Ok(InCommon { deformation, pressure: None });
         }
-        let counted = Mat::from_fn(grid.len(), pool.len(), |i, j| value(pressures[(i, j)]) / pool[j].h_c.min(THIN));
+        let counted =
+            Mat::from_fn(grid.len(), pool.len(), |i, j| value(pressures[(i, j)]) / pool[j].least_film().min(THIN));
         let basis = PodBasis::new(counted.as_ref(), grid.weights(), 0.0).ok_or_else(failed)?.cut(shared);
         let keeping = Keeping { kind: grid.kind(), anchored: true, heat, shapes: false };
         let basis = basis.kept(keeping.accuracy());

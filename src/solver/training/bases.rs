@@ -28,7 +28,7 @@ pub(super) fn missed_by_modes(solutions: &[&Solved], grid: &ContactGrid) -> Opti
     let every = solutions.len().div_ceil(MOST_JUDGED).max(1);
     let judged: Vec<&&Solved> = solutions.iter().step_by(every).collect();
     let count = judged.len();
-    let pressures = Mat::from_fn(grid.len(), count, |i, j| judged[j].pressure[i] / judged[j].h_c.min(THIN));
+    let pressures = Mat::from_fn(grid.len(), count, |i, j| judged[j].pressure[i] / judged[j].least_film().min(THIN));
     let basis = PodBasis::new(pressures.as_ref(), grid.weights(), 0.5)?;
     let mut rest = 0.0;
     let missed = basis.singular_values.iter().rev().map(|sigma| {
@@ -54,7 +54,7 @@ pub(super) fn modes_missing_of_any(solutions: &[Solved], grid: &ContactGrid, mis
     let basis = PodBasis::new(pressures.as_ref(), weights, 0.0)?;
     let most = solutions.iter().map(|solved| {
         let shares = basis.coefficients(weights, |i| solved.pressure[i]);
-        let (mut rest, limit) = (0.0, (missing * solved.h_c.min(THIN)).powi(2));
+        let (mut rest, limit) = (0.0, (missing * solved.least_film().min(THIN)).powi(2));
         let spare = shares.iter().rev().take_while(|share| {
             rest += *share * *share;
             rest <= limit

@@ -187,21 +187,22 @@ fn lubricant(spec: &TrainingSpec) -> Result<(), Refused> {
     }
 }
 
-/// Checks the parameter space of a training with rough surfaces: steady line contacts without sliding or shear-thinning.
+/// Checks the parameter space of a training with rough surfaces: steady line or circular contacts without sliding or
+/// shear-thinning.
 fn rough(spec: &TrainingSpec) -> Result<(), Refused> {
     let (range, laws) = (&spec.range, &spec.lubricant);
     let refuse = |field: &str, problem: &str| Err(Refused::new(field, problem));
     if laws.roughness.is_none() {
         return refuse("range.axes.SmoothFilmRatio", "needs the laws of rough surfaces");
     }
-    if spec.contact() != ContactKind::Line {
-        return refuse("range.axes.SmoothFilmRatio", "is supported for line contacts only");
+    if spec.contact() == ContactKind::Point && laws.roughness.is_some_and(|roughness| roughness.peklenik != 1.0) {
+        return refuse("roughness.peklenik", "must be 1 for a reduced model of rough circular contacts");
     }
     if range.slides() || laws.shear != ShearLaw::Newtonian {
         return refuse("range.axes.SmoothFilmRatio", "is supported for Newtonian lubricants without SRR only");
     }
-    if !matches!(spec.windows, Windows::Given(_)) {
-        return refuse("windows", "must be given for a range that varies the film ratio");
+    if matches!(spec.windows, Windows::Automatic { .. }) {
+        return refuse("windows", "must be `Given` or `Anchored` for a range that varies the film ratio");
     }
     if spec.scheme != Scheme::Galerkin {
         return refuse("scheme", "must be Galerkin for rough surfaces");

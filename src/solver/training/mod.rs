@@ -36,6 +36,8 @@ mod responses_tests;
 #[cfg(test)]
 mod resume_tests;
 #[cfg(test)]
+mod rough_circle_tests;
+#[cfg(test)]
 mod rough_tests;
 mod rows;
 #[cfg(test)]

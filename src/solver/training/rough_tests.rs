@@ -12,7 +12,7 @@ use crate::solver::reduced::{Online, ReducedError, ReducedOptions, Sampling, Tru
 use std::sync::Arc;
 
 /// Returns the errors of H_c, relative to its size or to half the roughness, and of the asperity load share.
-fn errors(own: &Solution, truth: &Solution) -> [f64; 2] {
+pub(super) fn errors(own: &Solution, truth: &Solution) -> [f64; 2] {
     let sigma = truth.problem.rough.unwrap().sigma;
     let share = |solution: &Solution| solution.mixed().unwrap().asperity_load_share;
     let film = (own.scalars.h_c - truth.scalars.h_c).abs() / truth.scalars.h_c.abs().max(0.5 * sigma);

@@ -328,3 +328,28 @@ pub(crate) fn rough(sampling: Sampling) -> TrainingSpec {
 pub(crate) fn rough_bounded() -> TrainingSpec {
     TrainingSpec { evidence: 200, ..rough(Sampling::Cubature) }
 }
+
+/// Rough circular contacts.
+pub(crate) fn rough_circles(sampling: Sampling) -> TrainingSpec {
+    let m = (25.0, 40.0);
+    let range = ParameterSpace::of([
+        Axis::new(Quantity::M, m),
+        Axis::new(Quantity::L, (6.0, 8.0)),
+        Axis::new(Quantity::SmoothFilmRatio, (0.5, 2.0)),
+    ])
+    .limited([(Quantity::RoughnessNumber, (0.0, 0.5))]);
+    let plan = Plan::FarthestPoint { snapshots: 80 };
+    let spec = TrainingSpec::new(range, m, GridSpec::Plane(POINT_GRID), plan);
+    let (pressure_loss, deformation_loss, rows_per_mode) = (1e-8, 0.1, 4.0);
+    TrainingSpec { sampling, pressure_loss, deformation_loss, rows_per_mode, evidence: 0, ..spec }.on_surfaces(None)
+}
+
+/// Rough circular contacts of varying lubricants, with two local models that share a basis, and with error bounds.
+pub(crate) fn rough_oils_of_points() -> TrainingSpec {
+    let mut spec = oils_of_points(60);
+    spec.range.axes.push(Axis::new(Quantity::SmoothFilmRatio, (0.5, 2.0)));
+    spec.range.limits.retain(|(limited, _)| *limited != Quantity::FilmThickness);
+    spec.range.limits.push((Quantity::RoughnessNumber, (0.0, 0.5)));
+    let windows = anchored(2, 40, GridSpec::Plane(POINT_GRID), 70);
+    TrainingSpec { windows, rows_per_mode: 4.0, evidence: 100, ..spec }.on_surfaces(None)
+}

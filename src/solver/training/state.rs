@@ -4,6 +4,7 @@ use super::search::Search;
 use super::spec::{TrainingSpec, WindowSpec};
 use crate::solver::discrete::grid::{ContactGrid, GridSpec};
 use crate::solver::full::{GridCost, Solution};
+use crate::solver::parameters::REFERENCE_ROUGHNESS_M;
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::fronts;
 use serde::{Deserialize, Serialize};
@@ -78,6 +79,14 @@ pub struct Solved {
 }
 
 impl Solved {
+    /// Returns the film thickness to which errors of the central one are relative: for rough surfaces at least σ/2.
+    pub(super) fn least_film(&self) -> f64 {
+        match self.fronts.is_empty() {
+            true => self.h_c,
+            false => self.h_c.abs().max(0.5 * REFERENCE_ROUGHNESS_M / self.point.film_scale_m()),
+        }
+    }
+
     /// Extracts the data that a training needs from a solution on a grid.
     pub fn new(place: usize, solution: Solution, grid: &ContactGrid) -> Self {
         let fronts = solution.problem.rough.map_or_else(Vec::new, |_| {

@@ -51,18 +51,10 @@ pub fn sweep(document: &Document, answers: &Answers, choices: &Choices) -> Optio
     }
     let rough = key.lubricant.is_rough();
     let (ends, served) = match answers.in_use(document).filter(|by| by.model.domain.is_rough() == rough) {
-        // Each full solution of a rough line contact takes some 15 ms from its neighbour.
-        by if rough && point.kind == ContactKind::Line => {
+        by if rough => {
             let ends = varied.everywhere(&key);
             let part = by.and_then(|by| Some((covered(&by.model.domain, &key, varied, ends)?, by)));
-            let whole = |(part, by): ((f64, f64), InUse)| {
-                let part = Some(part).filter(|part| *part != ends);
-                Served { by: Some(by), part, ..Served::IN_FULL }
-            };
-            (ends, Ok(part.map_or(Served::IN_FULL, whole)))
-        }
-        None if rough => {
-            (varied.everywhere(&key), Err(Refusal::new("there is no reduced model of rough point contacts")))
+            of_rough(point.kind, ends, part)
         }
         None => (varied.everywhere(&key), Err(Refusal::new("there is no reduced model of this contact"))),
         Some(by) => match varied.trained(&by.model.domain, &point) {
@@ -96,6 +88,27 @@ pub fn sweep(document: &Document, answers: &Answers, choices: &Choices) -> Optio
     };
     let base = Key { point: varied.at(&point, ends.0), lubricant: key.lubricant };
     Some((Sweep { varied, base, ends, logarithmic }, served))
+}
+
+/// Returns the ends of a sweep of rough contacts and its method, from the `part` that a model covers, with the model.
+fn of_rough(
+    kind: ContactKind,
+    ends: (f64, f64),
+    part: Option<((f64, f64), InUse)>,
+) -> ((f64, f64), Result<Served, Refusal>) {
+    match (kind, part) {
+        // Each full solution of a rough line contact takes some 15 ms from its neighbour.
+        (ContactKind::Line, None) => (ends, Ok(Served::IN_FULL)),
+        (ContactKind::Line, Some((part, by))) => {
+            let part = Some(part).filter(|part| *part != ends);
+            (ends, Ok(Served { by: Some(by), part, ..Served::IN_FULL }))
+        }
+        // Those of point contacts take too long for the rest of a curve.
+        (ContactKind::Point, Some((part, by))) => (part, Ok(Served { by: Some(by), ..Served::IN_FULL })),
+        (ContactKind::Point, None) => {
+            (ends, Err(Refusal::new("the reduced model of rough circular contacts covers no part of this curve")))
+        }
+    }
 }
 
 /// Number of values of a sweep that are checked, and of halvings that refine the ends.
@@ -148,4 +161,18 @@ fn untrained(domain: &Domain, key: &Key, varied: Varied, ends: (f64, f64)) -> Re
         }
     }
     Ok(untrained)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rough_curves_without_a_model_are_full_for_lines_only() {
+        let ends = (0.1, 10.0);
+        let (all, served) = of_rough(ContactKind::Line, ends, None);
+        assert!(all == ends && served.is_ok_and(|served| served == Served::IN_FULL));
+        let (_, refused) = of_rough(ContactKind::Point, ends, None);
+        assert!(refused.is_err_and(|why| why.to_string().contains("circular contacts covers no part")));
+    }
 }

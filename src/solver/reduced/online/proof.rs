@@ -10,8 +10,8 @@ use crate::solver::reduced::model::{ReducedModel, Snapshot};
 use crate::solver::reduced::start::{self, Guess};
 use std::cell::OnceCell;
 
-/// Largest accepted relative deviation of the central film thickness H_c from a snapshot. Consistent models deviate by
-/// less than 1 %; parts of different local models by far more.
+/// Largest accepted relative deviation of the central film thickness H_c from a snapshot; for rough surfaces relative to
+/// σ/2 if H_c is smaller. Consistent models deviate by less than 1 %; parts of different local models by far more.
 const WITHIN: f64 = 0.1;
 
 /// Number of snapshots that must be reproduced. A single one may lie where iterations do not converge.
@@ -45,7 +45,7 @@ impl ReducedModel {
             let Ok(problem) = Problem::new(&snapshot.point, self.domain.lubricant) else { return false };
             let mut gives = |guess: Guess| {
                 attempt(served, &mut operators, &problem, &guess, usize::MAX, &options, &mut Watch::of(&()))
-                    .is_ok_and(|found| (found.h_c - snapshot.h_c).abs() <= WITHIN * snapshot.h_c.abs())
+                    .is_ok_and(|found| problem.film_difference(found.h_c, snapshot.h_c).abs() <= WITHIN)
             };
             gives(start::carried(served, snapshot, &problem.point))
                 || served.anchor.is_some()

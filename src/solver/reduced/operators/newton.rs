@@ -56,7 +56,7 @@ pub(crate) struct Iterate<'a> {
     pub coefficients: &'a [f64],
     /// Film thickness at X = 0 per unit of each coefficient.
     pub lift: &'a [f64],
-    /// Central film thickness H_c before the step.
+    /// Film thickness to which errors of the central one are relative, before the step: for rough surfaces at least σ/2.
     pub h_c: f64,
 }
 
@@ -136,6 +136,7 @@ impl Operators {
     fn show(&mut self, case: &Case<'_>, (coefficients, h_0): (&[f64], f64), observer: &mut RowObserver<'_>) {
         self.system.times_step();
         let s = &self.system;
+        let h_c = h_0 - 0.5 * case.scale.ln() + self.lifted(coefficients);
         observer(&Iterate {
             residual: &s.values,
             jacobian_step: &s.product,
@@ -143,7 +144,7 @@ impl Operators {
             step: &s.step.rhs,
             coefficients,
             lift: &s.lift,
-            h_c: h_0 - 0.5 * case.scale.ln() + self.lifted(coefficients),
+            h_c: case.problem.rough.map_or(h_c, |_| h_c.abs().max(case.problem.least_film())),
         });
     }
 

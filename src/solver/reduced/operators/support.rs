@@ -66,6 +66,12 @@ impl Support {
         })
     }
 
+    /// Returns the first of the boundary's places on a line of nodes that is not in front of a column.
+    pub fn asked(&self, line: usize, column: usize) -> usize {
+        let asked = &self.places[self.own..];
+        self.own + asked.partition_point(|place| along(self.across, place.node) < (line, column))
+    }
+
     /// Returns the nodes of all places.
     pub fn nodes(&self) -> Vec<usize> {
         self.places.iter().map(|place| place.node).collect()

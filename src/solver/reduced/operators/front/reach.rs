@@ -1,13 +1,15 @@
 //! Position of the boundary B in a node array, and nodes that it may reach.
 
 use crate::solver::discrete::grid::ContactGrid;
+use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::model::Window;
 
 /// Number of nodes that B may move beyond its positions in the training.
 const MARGIN: usize = 4;
-/// Number of nodes that B of a rough line contact may move beyond its positions in the training.
-const FARTHER: usize = 16;
+/// Number of nodes that B of a rough contact may move beyond its positions in the training, for a line and for each line
+/// of a plane.
+const FARTHER: [usize; 2] = [16, 6];
 /// Number of nodes in front of B whose pressures are checked: k of (D.17).
 pub(super) const BEFORE: usize = 5;
 
@@ -50,14 +52,19 @@ pub(super) fn passed(window: &Window) -> Vec<(usize, usize)> {
     (0..grid.lines()).map(of_line).collect()
 }
 
-/// Calls `tell` with the rows, as unknowns, that B of a rough line contact may pass or look at, column by column.
-pub(in crate::solver::reduced::operators) fn each_near(window: &Window, tell: impl FnMut(usize)) {
-    let grid = &window.grid;
-    let fronts = || window.snapshots.iter().filter_map(|snapshot| snapshot.fronts.first().copied());
-    let (first, unknowns) = (grid.line_and_column(grid.node(0)).1, grid.unknowns());
-    let lowest = fronts().min().unwrap_or(first).saturating_sub(FARTHER + first);
-    let end = (fronts().max().unwrap_or(unknowns) + FARTHER).saturating_sub(first).min(unknowns);
-    (lowest.min(end)..end).for_each(tell);
+/// Calls `tell` with line and unknown of the rows that B of a rough contact may pass or look at, line by line along X.
+/// Every line has at least one.
+pub(in crate::solver::reduced::operators) fn each_near(window: &Window, mut tell: impl FnMut(usize, usize)) {
+    let (grid, lines) = (&window.grid, window.grid.lines());
+    let first = grid.line_and_column(grid.node(0)).1;
+    let columns = grid.unknowns() / lines;
+    let farther = FARTHER[usize::from(grid.kind() == ContactKind::Point)];
+    for line in 0..lines {
+        let fronts = || window.snapshots.iter().filter_map(|snapshot| snapshot.fronts.get(line).copied());
+        let end = (fronts().max().unwrap_or(columns) + farther).saturating_sub(first).clamp(1, columns);
+        let lowest = fronts().min().unwrap_or(first).saturating_sub(farther + first).min(end - 1);
+        (lowest..end).for_each(|column| tell(line, column * lines + line));
+    }
 }
 
 /// Returns the rows, as unknowns, that the boundary may pass, line by line; empty for cavitation by a penalty.
