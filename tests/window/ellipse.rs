@@ -161,7 +161,7 @@ fn ellipse_model_is_read_on_demand() {
         let judged = ["Reduced model", "Verified", "Roughly right"].contains(&app.badge().as_str());
         judged && !app.badge_detail().contains("full solution on")
     });
-    for ratio in [0.6, 1.7, 6.0] {
+    for ratio in [0.6, 1.7, 3.0] {
         set(&mut harness, Role::Slider, RATIO, ratio);
         assert!(harness.state().central_film().is_some(), "the picture follows in the frame");
     }
