@@ -175,7 +175,7 @@ fn ellipse_model_is_read_on_demand() {
         detail.starts_with("sketch on a quick grid, error of {H_c} about ") && detail.contains("of {H_min} "),
         "{detail}"
     );
-    assert!(harness.state().badge_detail().contains("ratio of radii"), "{}", harness.state().badge_detail());
+    assert!(detail.contains("lies outside the trained range 0.02…0.6"), "{detail}");
     wait(&mut harness, "the chosen grid", |app| !app.busy());
     assert_eq!(told(harness.state()), ("Outside the trained range".to_owned(), false));
 }

@@ -228,6 +228,7 @@ fn tooltips_are_small_and_beside_their_control() {
         let mut known: Vec<(String, Rect)> = Vec::new();
         for tab in TABS {
             click(&mut harness, tab);
+            wait(&mut harness, "rest", |app| !(app.busy() || app.marching()));
             let mut controls: Vec<(String, Rect)> = Vec::new();
             for role in CONTROLS {
                 for node in harness.query_all_by_role(role) {
