@@ -26,8 +26,11 @@ def test_progress_is_told_and_what_it_raises_comes_back(small_training):
 
 @pytest.mark.skipif(os.name != "posix", reason="signals")
 def test_ctrl_c_stops_long_work():
+    # A background process of a shell ignores the signal unless it asks for it.
     script = """
+import signal
 import ehl_explorer as ehl
+signal.signal(signal.SIGINT, signal.default_int_handler)
 print("begun", flush=True)
 try:
     ehl.sweep(ehl.Contact.moes(40, 10, contact="point"), "moes-m=100:1000:2000")
