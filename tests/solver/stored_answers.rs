@@ -1,4 +1,5 @@
-//! The embedded models compared with 200 stored answers of each, computed before their files got the present format.
+//! The embedded models compared with 200 stored answers of each, computed when a model was trained last, or before its
+//! file got the present format.
 //!
 //! `tests/data/model_answers.bin` contains the answers: for each model of the catalogue its 200 contacts (nine numbers
 //! of four bytes each, [`Contact`]), then the model's results for each of them ([`answer`], numbers of eight bytes).

@@ -9,6 +9,13 @@ const KIND: &str = "this unit is for co-simulation only";
 const EVENTS: &str = "this unit has no event mode";
 const STRUCTURE: &str = "this unit has no structural parameters";
 
+/// Refuses an instance of another kind, and sends the reason to the log.
+unsafe fn refuse_kind(name: *const c_char, environment: *mut c_void, logger: Option<Logger3>) -> *mut c_void {
+    // SAFETY: the name belongs to the simulation.
+    let log = unsafe { Log::new(name, logger.map(Logger::Three), environment) };
+    instantiate(log, None, || Err(KIND.into()))
+}
+
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3InstantiateModelExchange(
     name: *const c_char,
@@ -19,9 +26,7 @@ pub unsafe extern "C" fn fmi3InstantiateModelExchange(
     environment: *mut c_void,
     logger: Option<Logger3>,
 ) -> *mut c_void {
-    // SAFETY: the name belongs to the simulation.
-    let log = unsafe { Log::new(name, logger.map(Logger::Three), environment) };
-    instantiate(log, None, || Err(KIND.into()))
+    unsafe { refuse_kind(name, environment, logger) }
 }
 
 #[unsafe(no_mangle)]
@@ -37,9 +42,7 @@ pub unsafe extern "C" fn fmi3InstantiateScheduledExecution(
     _lock: *const c_void,
     _unlock: *const c_void,
 ) -> *mut c_void {
-    // SAFETY: the name belongs to the simulation.
-    let log = unsafe { Log::new(name, logger.map(Logger::Three), environment) };
-    instantiate(log, None, || Err(KIND.into()))
+    unsafe { refuse_kind(name, environment, logger) }
 }
 
 /// Declares a function without arguments that is refused.
