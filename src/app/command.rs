@@ -73,6 +73,8 @@ pub enum Command {
     CopyReadouts,
     /// Pins the live curve.
     Pin,
+    /// Exchanges the contact with that of the last pin.
+    SwapPin,
     /// Removes all pins.
     Unpin,
     /// Opens the settings that apply to all documents.
@@ -271,6 +273,7 @@ pub static MENUS: &[Item] = {
         item("Edit", 0, C::Undo, "Undo", "back revert", Some((CTRL, Key::Z))),
         item("Edit", 0, C::Redo, "Redo", "again repeat", Some((CTRL_SHIFT, Key::Z))),
         item("Edit", 1, C::Pin, "Pin curve", "compare keep", Some((CTRL, Key::D))),
+        item("Edit", 1, C::SwapPin, "Swap with the last pin", "compare two contacts exchange side by side", None),
         item("Edit", 1, C::Unpin, "Remove all pins", "clear compare unpin", Some((CTRL_SHIFT, Key::D))),
         item(
             "Edit",

@@ -16,6 +16,7 @@ use super::units::{self, Units};
 use super::wake::wake;
 use super::{Explorer, export};
 use crate::app::animations::loads;
+use crate::app::document::{Edit, Key};
 use crate::app::refusal::Refusal;
 use crate::app::tabs::transient::Setup;
 use egui::{Context, ThemePreference, ViewportCommand};
@@ -103,6 +104,11 @@ impl Explorer {
             }
             Command::CopyReadouts => ctx.copy_text(export::readouts_table(&desk.answers, desk.display.system)),
             Command::Pin => desk.answers.pin(),
+            Command::SwapPin => {
+                if let Some(Key { point, lubricant }) = desk.answers.swap_pin() {
+                    desk.edit(Edit::Contact(point, Box::new(lubricant)), "contact");
+                }
+            }
             Command::Unpin => desk.answers.unpin_all(),
             Command::Settings => self.settings.open = true,
             Command::SetThresholds(thresholds) => desk.display.thresholds = thresholds,

@@ -3,6 +3,7 @@
 use super::rom::{self, Catalogue, ModelFileError};
 use crate::host::models;
 use crate::solver::observer::Observer;
+use crate::solver::physics::contact::ContactKind;
 use crate::solver::reduced::transient::TrajectoryModel;
 use crate::solver::reduced::{Domain, ReducedModel};
 use std::borrow::Cow;
@@ -26,7 +27,7 @@ macro_rules! held {
 }
 
 /// Names of the steady models with the embedded part of their files. Scenes in `scenes/training` train them.
-const MODELS: [(&str, &[u8]); 12] = [
+const MODELS: [(&str, &[u8]); 13] = [
     ("line", held!("../../assets/line.rom")),
     ("line_shear", held!("../../assets/line_shear.rom")),
     ("point", held!("../../assets/point.rom")),
@@ -39,6 +40,7 @@ const MODELS: [(&str, &[u8]); 12] = [
     ("point_sliding", held!("../../assets/point_sliding.rom")),
     ("point_light_sliding", held!("../../assets/point_light_sliding.rom")),
     ("line_rough", held!("../../assets/line_rough.rom")),
+    ("point_rough", held!("../../assets/point_rough.rom")),
 ];
 
 /// Catalogue entry of an embedded model.
@@ -61,7 +63,7 @@ pub fn catalogue() -> &'static [Entry] {
 
 /// Returns the content of a model's file; `None` for an unknown name, or if the file has not been loaded yet.
 pub fn bytes_of(name: &str) -> Option<Cow<'static, [u8]>> {
-    let (_, held) = MODELS.iter().chain(&[IN_TIME]).find(|(known, _)| *known == name)?;
+    let (_, held) = MODELS.iter().chain(&IN_TIME).find(|(known, _)| *known == name)?;
     if cfg!(feature = "models") { Some(Cow::Borrowed(held)) } else { models::now(name).map(Cow::Owned) }
 }
 
@@ -118,22 +120,32 @@ pub(super) fn embedded_watched(name: &str, observer: &dyn Observer) -> Result<Ar
     }))
 }
 
-/// Transient model with the embedded part of its file.
-const IN_TIME: (&str, &[u8]) = ("line_in_time", held!("../../assets/line_in_time.rom"));
+/// Names of the transient models with the embedded part of their files: of line and of circular contacts.
+const IN_TIME: [(&str, &[u8]); 2] = [
+    ("line_in_time", held!("../../assets/line_in_time.rom")),
+    ("point_in_time", held!("../../assets/point_in_time.rom")),
+];
 
-/// Loads the transient model of line contacts with varying load: `scenes/training/line_in_time.ron`. It is read only
-/// once, because its trained range is needed for every frame.
+/// Loads the transient model of a kind of contact: `scenes/training/line_in_time.ron` for line contacts with varying
+/// load, `scenes/training/point_in_time.ron` for circular contacts with varying load and speed. It is read only once,
+/// because its trained range is needed for every frame.
 ///
 /// # Errors
 /// If the program was built with a damaged file.
-pub fn line_in_time() -> Result<Arc<TrajectoryModel>, ModelFileError> {
-    static MODEL: OnceLock<Arc<TrajectoryModel>> = OnceLock::new();
-    if let Some(model) = MODEL.get() {
+pub fn in_time(kind: ContactKind) -> Result<Arc<TrajectoryModel>, ModelFileError> {
+    static LINE: OnceLock<Arc<TrajectoryModel>> = OnceLock::new();
+    static POINT: OnceLock<Arc<TrajectoryModel>> = OnceLock::new();
+    let [(line, _), (point, _)] = IN_TIME;
+    let (name, model) = match kind {
+        ContactKind::Line => (line, &LINE),
+        ContactKind::Point => (point, &POINT),
+    };
+    if let Some(model) = model.get() {
         return Ok(Arc::clone(model));
     }
-    let bytes = bytes_of(IN_TIME.0).ok_or(ModelFileError::Foreign)?;
+    let bytes = bytes_of(name).ok_or(ModelFileError::Foreign)?;
     let read = rom::from_own_bytes(&bytes, &())?.in_time()?;
-    Ok(Arc::clone(MODEL.get_or_init(|| read)))
+    Ok(Arc::clone(model.get_or_init(|| read)))
 }
 
 #[cfg(test)]
@@ -147,7 +159,7 @@ mod tests {
 
     #[test]
     fn all_files_together_are_small() {
-        let all = MODELS.iter().map(|(_, bytes)| bytes.len()).sum::<usize>() + IN_TIME.1.len();
-        assert!(all < 28_800_000 && bytes_of("line").unwrap().len() < 3_100_000, "{all} bytes");
+        let all = MODELS.iter().chain(&IN_TIME).map(|(_, bytes)| bytes.len()).sum::<usize>();
+        assert!(all < 32_000_000 && bytes_of("line").unwrap().len() < 3_100_000, "{all} bytes");
     }
 }

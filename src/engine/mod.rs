@@ -28,10 +28,11 @@ pub mod results;
 mod rom;
 mod store;
 pub mod training_file;
+pub mod validation;
 mod workbench;
 
 pub use answer::{Solver, answer};
-pub use embedded::{Entry, bytes_of, catalogue, embedded, line_in_time, name_of};
+pub use embedded::{Entry, bytes_of, catalogue, embedded, in_time, name_of};
 pub use grid_accuracy::GridAccuracy;
 pub use rom::{Catalogue, ModelKind, SavedModel};
 pub use store::{Held, Store};

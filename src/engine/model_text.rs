@@ -4,6 +4,7 @@ use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::transient::{Inputs, Signal};
 use crate::solver::limits::digits;
 use crate::solver::parameters::Quantity;
+use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::{Cavitation, Lubricant};
 use crate::solver::reduced::transient::TrajectoryModel;
 use crate::solver::reduced::{Domain, ReducedModel, Scheme, Window};
@@ -12,7 +13,11 @@ use std::fmt::Write;
 /// Describes a transient model.
 pub fn describe_in_time(model: &TrajectoryModel) -> String {
     let (domain, window) = (&model.domain, &model.window);
-    let mut text = format!("{}\n  transient line contacts, frame {:?}\n", model.title, model.frame);
+    let (contacts, unit) = match window.grid.kind() {
+        ContactKind::Line => ("line", "N/m"),
+        ContactKind::Point => ("circular", "N"),
+    };
+    let mut text = format!("{}\n  transient {contacts} contacts, frame {:?}\n", model.title, model.frame);
     // Writing to a string cannot fail.
     text.push_str(&describe_domain(&domain.reference));
     for (name, reach) in [("load", domain.load), ("speed", domain.speed), ("radius", domain.radius)] {
@@ -44,7 +49,7 @@ pub fn describe_in_time(model: &TrajectoryModel) -> String {
         let p = &start.point;
         let _ = writeln!(
             text,
-            "  training {}: R {} m, u_m {} m/s, w {} N/m, T up to {:.4}, {}",
+            "  training {}: R {} m, u_m {} m/s, w {} {unit}, T up to {:.4}, {}",
             k + 1,
             p.radius_m,
             p.speed_m_per_s,
@@ -64,7 +69,10 @@ fn driven(inputs: &Inputs) -> String {
     let all = [("radius", &inputs.radius), ("speed", &inputs.speed), ("load", &inputs.load)];
     let told = |(name, signal): (&str, &Signal)| match signal {
         Signal::Constant => None,
-        Signal::Sampled { times, .. } => Some(format!("{name} by {} samples", times.len())),
+        Signal::Sampled { values, .. } => Some(match values[..] {
+            [value] => format!("{name} at {value}"),
+            _ => format!("{name} by {} samples", values.len()),
+        }),
         other => Some(format!("{name} {other:?}")),
     };
     let told: Vec<String> = all.into_iter().filter_map(told).collect();

@@ -133,6 +133,8 @@ mod tests {
             (light, eyring, "point_light_sliding"),
             (line, rough, "line_rough"),
             (at(ContactKind::Line, 900.0), rough, "line_rough"),
+            (circle, rough, "point_rough"),
+            (light, rough, "point_rough"),
             (line, warm, "line_heat"),
             (circle, warm, "point_heat"),
             (ellipse, warm, "point_heat"),

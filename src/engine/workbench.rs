@@ -3,7 +3,7 @@
 use super::answer::{Solver, answer, window_of};
 use super::rom::ModelFileError;
 use super::store::Store;
-use super::{Answer, EngineError, Request, catalogue, line_in_time, registry};
+use super::{Answer, EngineError, Request, catalogue, in_time, registry};
 use crate::scene::{Bench, Grid, Method, ModelSource, Scene, Study};
 use crate::solver::discrete::grid::{ContactGrid, GridSpec};
 use crate::solver::full::{Problem, Solution, SolveError, Start};
@@ -121,10 +121,11 @@ impl Bench for Workbench {
     fn trajectory_model(
         &mut self,
         source: &ModelSource,
+        kind: ContactKind,
         observer: &dyn TrainingObserver,
     ) -> Result<Arc<TrajectoryModel>, EngineError> {
         match source {
-            ModelSource::Embedded => line_in_time().map_err(|reason| EngineError::Embedded(reason.into())),
+            ModelSource::Embedded => in_time(kind).map_err(|reason| EngineError::Embedded(reason.into())),
             ModelSource::File(path) => self.store.trajectory_model_of_file(&self.base.join(path)),
             ModelSource::Trained(path) => {
                 let path = self.base.join(path);

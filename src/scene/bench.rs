@@ -7,7 +7,7 @@ use super::grid::Grid;
 use super::method::{Method, ModelSource};
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::full::Solution;
-use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::reduced::ReducedModel;
 use crate::solver::reduced::transient::TrajectoryModel;
@@ -40,13 +40,14 @@ pub trait Bench {
         observer: &dyn TrainingObserver,
     ) -> Result<Arc<ReducedModel>, RunError>;
 
-    /// Returns the transient reduced model of a source. It is read or trained only once.
+    /// Returns the transient reduced model of a source for a kind of contact. It is read or trained only once.
     ///
     /// # Errors
     /// If it cannot be read or trained, or if it is a model of steady contacts.
     fn trajectory_model(
         &mut self,
         source: &ModelSource,
+        kind: ContactKind,
         observer: &dyn TrainingObserver,
     ) -> Result<Arc<TrajectoryModel>, RunError>;
 

@@ -235,8 +235,10 @@ impl Scene {
     /// Does not fail for a scene that passes [`Scene::check`].
     pub fn to_ron(&self) -> Result<String, SceneError> {
         let config = PrettyConfig::new().struct_names(true).compact_arrays(true).depth_limit(3);
-        let mut text =
-            options().to_string_pretty(self, config).map_err(|error| SceneError::Unwritable(error.to_string()))?;
+        // As a trait object it shares its code with that of other formats.
+        let scene: &dyn erased_serde::Serialize = self;
+        let written = options().to_string_pretty(scene, config);
+        let mut text = written.map_err(|error| SceneError::Unwritable(error.to_string()))?;
         text.push('\n');
         Ok(text)
     }

@@ -3,18 +3,19 @@
 //!
 //! `tests/data/model_answers.bin` contains the answers: for each model of the catalogue its 200 contacts (nine numbers
 //! of four bytes each, [`Contact`]), then the model's results for each of them ([`answer`], numbers of eight bytes).
-//! The values along a march of the transient model follow ([`marched`]). All numbers are little-endian.
+//! The values along a march of each transient model follow ([`marched`]). All numbers are little-endian.
 //! `EHL_WRITE_ANSWERS=1 cargo test --release --test solver stored_answers` writes the file again, with the contacts of a
 //! fixed seed.
 
 use crate::common::cases::long;
-use ehl_explorer::engine::{catalogue, embedded, line_in_time};
+use ehl_explorer::engine::{catalogue, embedded, in_time};
 use ehl_explorer::solver::full::Problem;
 use ehl_explorer::solver::full::transient::{Transient, march};
-use ehl_explorer::solver::physics::contact::OperatingPoint;
+use ehl_explorer::solver::physics::contact::{ContactKind, OperatingPoint};
 use ehl_explorer::solver::physics::lubricant::Sliding;
 use ehl_explorer::solver::reduced::transient::ReducedMarch;
 use ehl_explorer::solver::reduced::{Online, ReducedModel, ReducedOptions, Trust};
+use ehl_explorer::solver::training::ResponseTraining;
 use fastrand::Rng;
 use rayon::prelude::*;
 use std::path::PathBuf;
@@ -108,17 +109,26 @@ fn answer(online: &mut Online, contact: &Contact) -> Option<[f64; VALUES + BOUND
     ])
 }
 
-/// H_c, H_min, P_c and P_max at fifty times of a march that begins at the start of the first training.
-fn marched() -> Vec<f64> {
-    let model = line_in_time().unwrap();
+/// H_c, H_min, P_c and P_max at fifty times of a march that begins at the start of the first training: along its inputs,
+/// or along the sweep of a circular contact.
+fn marched(kind: ContactKind) -> Vec<f64> {
+    let model = in_time(kind).unwrap();
     let start = &model.starts[0];
-    let own = Transient::new(start.point, start.inputs.clone(), start.duration, model.domain.step);
+    let (inputs, duration) = match kind {
+        ContactKind::Line => (start.inputs.clone(), start.duration),
+        ContactKind::Point => ResponseTraining::of_model(&model).sweep(),
+    };
+    let own = Transient::new(start.point, inputs, duration, model.domain.step);
     let transient = Transient { frame: model.frame, lubricant: model.domain.reference.lubricant, ..own };
     let trajectory = march(&mut ReducedMarch::new(&model, &transient).unwrap(), &transient, &()).unwrap();
     assert!(trajectory.finished());
     let moments = &trajectory.moments;
     let some = (0..50).map(|k| &moments[k * (moments.len() - 1) / 49]);
     some.flat_map(|moment| [moment.h_c, moment.h_min, moment.p_c, moment.p_max]).collect()
+}
+
+fn both_marched() -> impl Iterator<Item = f64> {
+    [ContactKind::Line, ContactKind::Point].into_iter().flat_map(marched)
 }
 
 /// Model with its contacts and their answers.
@@ -145,7 +155,7 @@ fn write() {
         answers.iter().flat_map(|(contact, _)| contact).for_each(|value| bytes.extend(value.to_le_bytes()));
         answers.iter().flat_map(|(_, answer)| answer).for_each(|value| bytes.extend(value.to_le_bytes()));
     }
-    marched().iter().for_each(|value| bytes.extend(value.to_le_bytes()));
+    both_marched().for_each(|value| bytes.extend(value.to_le_bytes()));
     std::fs::write(path(), bytes).unwrap();
 }
 
@@ -205,7 +215,7 @@ fn the_embedded_models_compute_what_was_stored() {
         );
     });
     let stored = doubles(transient);
-    let found = marched();
+    let found: Vec<f64> = both_marched().collect();
     assert_eq!(stored.len(), found.len());
     for (stored, found) in stored.iter().zip(&found) {
         assert!((found / stored - 1.0).abs() <= TOLERANCES[0], "{found} instead of {stored}");

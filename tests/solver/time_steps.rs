@@ -9,7 +9,7 @@ use ehl_explorer::solver::discrete::grid::GridSpec;
 use ehl_explorer::solver::full::transient::{
     FullMarch, Inputs, Marching, Quantity, Signal, TimeStep, Trajectory, Transient, march,
 };
-use ehl_explorer::solver::physics::contact::OperatingPoint;
+use ehl_explorer::solver::physics::contact::{ContactKind, OperatingPoint};
 use ehl_explorer::solver::reduced::transient::ReducedMarch;
 use ehl_explorer::solver::warning::Warning;
 use fastrand::Rng;
@@ -111,7 +111,7 @@ fn controlled_steps_keep_the_tolerance_in_full_and_reduced() {
     };
     judge(&trajectory, true_error(&trajectory, &mut model, 0.001), "full");
 
-    let reduced = Workbench::default().trajectory_model(&ModelSource::Embedded, &()).unwrap();
+    let reduced = Workbench::default().trajectory_model(&ModelSource::Embedded, ContactKind::Line, &()).unwrap();
     let mut model = ReducedMarch::new(&reduced, &asked).unwrap();
     let trajectory = march(&mut model, &asked, &()).unwrap();
     let error = true_error(&trajectory, &mut model, 0.001);

@@ -1,7 +1,7 @@
 //! Desktop features: all commands through the command palette, and a picture for a lecture.
 
 use crate::common::scratch::Scratch;
-use crate::driver::{Window, click, press, set, shows, wait};
+use crate::driver::{Window, click, press, set, shows, undo, wait};
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, ViewportCommand};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -189,6 +189,31 @@ fn presentation_shows_plots_and_ends_with_escape() {
     harness.run_steps(4);
     click(&mut harness, "End the presentation");
     assert!(harness.query_by_label("File").is_some() && (harness.ctx.zoom_factor() - before).abs() < 1e-6);
+}
+
+#[test]
+fn either_of_two_contacts_in_a_presentation_is_moved() {
+    let mut harness = open();
+    let first = harness.state().moes().m;
+    press(&mut harness, Modifiers::NONE, Key::F11);
+    let swap = |harness: &Window| !harness.get_by_label("Swap").accesskit_node().is_disabled();
+    assert!(!swap(&harness), "nothing is pinned");
+    click(&mut harness, "Pin");
+    set(&mut harness, Role::Slider, "Load number M", 80.0);
+    settled(&mut harness);
+    let film = harness.state().central_film().unwrap();
+    assert!(swap(&harness));
+    click(&mut harness, "Swap");
+    settled(&mut harness);
+    assert!((harness.state().moes().m / first - 1.0).abs() < 1e-9);
+    set(&mut harness, Role::Slider, "Load number M", 30.0);
+    settled(&mut harness);
+    click(&mut harness, "Swap");
+    settled(&mut harness);
+    assert!((harness.state().moes().m / 80.0 - 1.0).abs() < 1e-6);
+    assert!((harness.state().central_film().unwrap() / film - 1.0).abs() < 1e-6, "the contact that was pinned");
+    undo(&mut harness);
+    assert!((harness.state().moes().m / 30.0 - 1.0).abs() < 1e-6);
 }
 
 #[test]

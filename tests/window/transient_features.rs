@@ -164,16 +164,22 @@ fn circular_contacts_run_play_and_are_saved() {
     assert!(time(&harness) < 1.0);
     click(&mut harness, "Pause");
 
-    // What point contacts do not have is not offered, and the linearised view says so in a sentence.
+    // What point contacts do not have is not offered.
     click(&mut harness, "Set-up");
-    assert!(shows(&harness, "Point contacts run by the full system") && harness.query_by_label("Radius").is_none());
+    assert!(harness.query_by_label("Radius").is_none() && !shows(&harness, "Moving nodes (ALE)"));
     set(&mut harness, Role::SpinButton, "Load A", 0.2);
     let study = saved(&mut harness, &folder);
     assert!(format!("{:?}", study.inputs.load).contains("0.2"));
     click(&mut harness, "TPWL");
-    assert!(shows(&harness, "covers line contacts only"));
+    assert!(shows(&harness, "has no linearised model yet"));
+    // A linearised model of a circular contact needs the basis of a reduced one.
+    click(&mut harness, "Linearise this run");
+    let study = saved(&mut harness, &folder);
+    assert!(study.linearised.is_some() && study.reduced.is_some_and(|reduced| reduced.is_embedded()));
+    click(&mut harness, "Ellipse");
+    assert!(shows(&harness, "covers line and circular contacts only"));
     click(&mut harness, "Show a line contact");
-    assert!(!shows(&harness, "covers line contacts only"));
+    assert!(!shows(&harness, "covers line and circular contacts only"));
 }
 
 #[test]

@@ -212,6 +212,49 @@ fn new_transient_runs_replays_and_is_checked() {
 }
 
 #[test]
+fn a_ball_is_replayed_by_the_built_in_model_and_checked() {
+    let explorer = Explorer::new(None).without_system_dialogs();
+    let mut harness = crate::driver::window(explorer, [1280.0, 800.0]);
+    wait(&mut harness, "the first picture", |app| app.central_film().is_some() && !app.busy());
+    click(&mut harness, "Ball");
+    click(&mut harness, "Transient");
+    let live = |app: &Explorer| app.in_time() == (true, 1, 1);
+    wait(&mut harness, "the reduced model", live);
+    assert!(shows(&harness, "Live") && shows(&harness, "The reduced model is the built-in one"));
+    set(&mut harness, Role::Slider, "Load amplitude", 0.08);
+    wait(&mut harness, "the reduced model again", live);
+
+    click(&mut harness, "Run transient");
+    rest_in_time(&mut harness);
+    assert_eq!((harness.state().transient_moments(), harness.state().in_time()), (3 * 101, (true, 3, 0)));
+    let folder = Scratch::new("ball_models");
+    let series = Table::of(&export(&mut harness, "Transient", "Series as CSV…", &folder.join("series.csv")));
+    let full = series.column("full.fixed.H_c");
+    for (name, within) in [("rnsa.fixed.H_c", 3e-3), ("tpwl_dual_taylor.fixed.H_c", 1e-2)] {
+        let own = series.column(name);
+        let worst = own.iter().zip(&full).map(|(own, full)| (own / full - 1.0).abs()).fold(0.0, f64::max);
+        assert!(worst < within, "{name}: {worst:e}");
+    }
+    click(&mut harness, "TPWL");
+    for plot in
+        ["Operating points along the trajectory", "Operating points in the plane", "Weights of the operating points"]
+    {
+        assert!(shows(&harness, plot), "{plot}");
+    }
+    assert!(harness.state().operating_points().is_some_and(|points| points >= 10));
+
+    // Another load is outside the range of that model, and one is trained when the run starts.
+    click(&mut harness, "Transient");
+    click(&mut harness, "Set-up");
+    set(&mut harness, Role::Slider, "Load number M", 60.0);
+    assert!(shows(&harness, "The reduced model is trained here instead of the built-in one"));
+    // An ellipse has the full system only.
+    click(&mut harness, "Ellipse");
+    assert!(shows(&harness, "Elliptical contacts run by the full system"));
+    assert!(harness.query_by_role_and_label(Role::CheckBox, "Reduced model").is_none());
+}
+
+#[test]
 fn a_frame_of_a_dragged_amplitude_is_cheap() {
     let explorer = Explorer::new(None).without_system_dialogs();
     let mut harness = crate::driver::window(explorer, [1280.0, 800.0]);

@@ -35,8 +35,8 @@ def test_every_array_decodes_and_modes_are_those_of_the_program(reader, path, pr
             np.testing.assert_array_equal(array(f"windows/{k}/singular_values"), own[name.replace("modes", "singular_values")])
 
 
-def test_there_are_thirteen_models_and_other_files_are_refused(reader, tmp_path):
-    assert len(MODELS) == 13
+def test_there_are_fifteen_models_and_other_files_are_refused(reader, tmp_path):
+    assert len(MODELS) == 15
     (tmp_path / "other.rom").write_bytes(bytes(100))
     with pytest.raises(ValueError, match="no model file"):
         reader.open_model(tmp_path / "other.rom")

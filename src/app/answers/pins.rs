@@ -1,6 +1,7 @@
 //! Pinned curves, which stay on the screen for comparison.
 
 use super::picture::{Cuts, Picture};
+use crate::app::document::Key;
 
 /// Maximum number of pinned curves.
 pub const MOST_PINS: usize = 8;
@@ -32,6 +33,12 @@ impl Pins {
             self.pinned += 1;
             self.all.push(Pin { number: self.pinned, picture: picture.clone() });
         }
+    }
+
+    /// Replaces the last pinned curve. Returns the contact of the former one.
+    pub fn swap(&mut self, picture: &Picture) -> Option<Key> {
+        let last = self.all.last_mut()?;
+        Some(std::mem::replace(&mut last.picture, picture.clone()).key)
     }
 
     /// Removes the curve at an index, if there is one.

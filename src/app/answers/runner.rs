@@ -19,7 +19,7 @@ use crate::host::worker;
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::Problem;
 use crate::solver::full::point::second_grid;
-use crate::solver::reduced::{ReducedModel, ReducedOptions, Trust};
+use crate::solver::reduced::{Domain, ReducedModel, ReducedOptions, Trust};
 use egui::Context;
 use std::sync::Arc;
 use std::time::Duration;
@@ -129,8 +129,9 @@ impl Answers {
 
     /// Returns the reason why the reduced model is not even tried. `None` if it is tried.
     fn untried(&self, document: &Document) -> Option<PassedOver> {
-        let heat = document.lubricant.heat.is_some();
-        let own = |model: &Arc<ReducedModel>| model.is_of(&document.point) && model.domain.heats() == heat;
+        let kind = |domain: &Domain| (domain.heats(), domain.is_rough());
+        let asked = (document.lubricant.heat.is_some(), document.lubricant.is_rough());
+        let own = |model: &Arc<ReducedModel>| model.is_of(&document.point) && kind(&model.domain) == asked;
         let shapes = self.model(document).is_some_and(own);
         match self.trust(document) {
             _ if self.work.reading.is_some() && !shapes => Some(PassedOver::Reading),

@@ -295,6 +295,11 @@ impl Answers {
         }
     }
 
+    /// Pins the live curve in place of the last pinned one, whose contact it returns. `None` if one of them is missing.
+    pub fn swap_pin(&mut self) -> Option<Key> {
+        self.pins.swap(self.picture.as_ref()?)
+    }
+
     /// Removes a pinned curve by its index.
     pub fn unpin(&mut self, place: usize) {
         self.pins.remove(place);

@@ -40,7 +40,8 @@ impl Desk {
                 (self.answers.pins().len() >= MOST_PINS, "The maximum number of curves is pinned")
             }
             Command::Pin => (true, NO_PICTURE),
-            Command::Unpin => (self.answers.pins().is_empty(), "Nothing is pinned"),
+            Command::SwapPin if self.answers.picture().is_none() => (true, NO_PICTURE),
+            Command::SwapPin | Command::Unpin => (self.answers.pins().is_empty(), "Nothing is pinned"),
             Command::AnimateRun => (self.transient.animated().is_none(), "There is no full transient run yet"),
             Command::AnimateLoad => {
                 (loads(&self.document, &self.answers).is_none(), "The reduced model does not cover this contact")

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::app::document::{History, Shape};
+use crate::scene::ReducedTransient;
 use crate::scene::named_lubricant::by_name;
 use crate::solver::full::transient::{Frame, Inputs, Signal, Unsupported};
 use crate::solver::physics::lubricant::ShearLaw;
@@ -259,11 +260,14 @@ fn transient_refusals_agree_in_all_interfaces() {
     document = Document::default();
     document.switch_heat(true).unwrap();
     assert!(reason(&document).contains("isothermal"));
-    // The full system marches point contacts, linearised models do not.
+    // The full system marches all point contacts, linearised models only circular ones.
     document = Document::default();
     document.set_shape(Shape::Ball).unwrap();
-    assert_eq!((document.no_transient(), document.unsupported_in_time()), (None, None));
-    assert!(document.no_linearised().unwrap().contains("line contacts"));
+    let reasons = |document: &Document| (document.no_transient(), document.unsupported_in_time());
+    assert_eq!((reasons(&document), document.no_linearised()), ((None, None), None));
+    document.set_shape(Shape::Ellipse).unwrap();
+    assert_eq!(reasons(&document), (None, None));
+    assert!(document.no_linearised().unwrap().contains("circular contacts"));
 }
 
 #[test]
@@ -276,12 +280,21 @@ fn transient_studies_are_adapted_to_point_contacts_and_back() {
     document.set_transient(line.clone()).unwrap();
     document.set_shape(Shape::Ball).unwrap();
     let ball = document.transient_study();
-    assert_eq!((ball.reduced, ball.linearised, ball.inputs), (None, None, Inputs::load(harmonic)));
+    assert_eq!((&ball.reduced, &ball.linearised), (&line.reduced, &line.linearised));
+    assert_eq!(ball.inputs, Inputs::load(harmonic));
     let saved = Document::of_scene(document.to_scene()).unwrap();
     assert_eq!(
         (saved.transient_study(), saved.transient_grid()),
         (document.transient_study(), document.transient_grid())
     );
+    document.set_shape(Shape::Ellipse).unwrap();
+    let ellipse = document.transient_study();
+    assert_eq!((ellipse.reduced, ellipse.linearised), (None, None));
     document.set_shape(Shape::Roller).unwrap();
     assert_eq!(document.transient_study(), line);
+    // Marches do not train the model of a circular contact.
+    document.set_transient(TransientStudy { reduced: Some(ReducedTransient::default()), ..line }).unwrap();
+    document.set_shape(Shape::Ball).unwrap();
+    assert_eq!(document.transient_study().reduced, Some(ReducedTransient::by_responses()));
+    document.set_transient(document.transient_study()).unwrap();
 }

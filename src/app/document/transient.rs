@@ -19,8 +19,8 @@ impl Document {
         match (self.point.kind, &self.transient) {
             (ContactKind::Line, Some(study)) => study.clone(),
             (ContactKind::Line, None) => breathing(),
-            (ContactKind::Point, Some(study)) => of_a_plane(study.clone()),
-            (ContactKind::Point, None) => breathing_ball(),
+            (ContactKind::Point, Some(study)) => of_a_plane(study.clone(), self.point.is_elliptic()),
+            (ContactKind::Point, None) => of_a_plane(breathing_ball(), self.point.is_elliptic()),
         }
     }
 
@@ -53,8 +53,8 @@ impl Document {
 
     /// Returns why linearised transient models do not support this contact. `None` if they do.
     pub fn no_linearised(&self) -> Option<&'static str> {
-        let point = "The linearised model (TPWL) covers line contacts only; choose a line contact";
-        self.no_transient().or((self.point.kind == ContactKind::Point).then_some(point))
+        let ellipse = "The linearised model (TPWL) covers line and circular contacts only; choose one with equal radii";
+        self.no_transient().or(self.point.is_elliptic().then_some(ellipse))
     }
 
     /// Returns why the transient study does not support the contact. `None` if it does.
@@ -93,21 +93,29 @@ fn breathing() -> TransientStudy {
     }
 }
 
-/// Returns the default study of a point contact, which is marched by the full system alone.
+/// Returns the default study of a point contact, with the built-in models of circular contacts.
 fn breathing_ball() -> TransientStudy {
     let inputs = Inputs::load(Signal::Harmonic { amplitude: 0.1, period: 2.0 });
-    TransientStudy::new(inputs, 4.0, TimeStep::Fixed(0.04))
+    TransientStudy {
+        reduced: Some(ReducedTransient::embedded()),
+        linearised: Some(LinearisedTransient::usual(ContactKind::Point)),
+        ..TransientStudy::new(inputs, 4.0, TimeStep::Fixed(0.04))
+    }
 }
 
-/// Returns a study without the frames, inputs, schemes and models that point contacts do not have.
-fn of_a_plane(mut study: TransientStudy) -> TransientStudy {
+/// Returns a study without the frames, inputs, schemes and models that point contacts do not have. A model that marches
+/// train is replaced by one that responses train.
+fn of_a_plane(mut study: TransientStudy, elliptic: bool) -> TransientStudy {
     let Inputs { radius, speed, .. } = &mut study.inputs;
     *radius = Signal::Constant;
     if matches!(speed, Signal::Reversing { .. }) {
         *speed = Signal::Constant;
     }
-    // A model trained by responses is one of circular contacts.
-    if study.reduced.as_ref().is_none_or(|reduced| reduced.responses.is_none()) {
+    if study.reduced.as_ref().is_some_and(|reduced| reduced.training().is_some()) {
+        study.reduced = Some(ReducedTransient::by_responses());
+    }
+    // A linearised model shares the basis of a reduced one.
+    if elliptic || study.reduced.is_none() {
         study.drop_models();
     }
     study.mass_between = None;

@@ -92,7 +92,8 @@ impl Fragment {
         let refused = |why: String| LinkError::Document(why);
         let scene = document.to_ron().map_err(|why| refused(why.to_string()))?;
         let packed = Packed { scene, tabs: Part::of(tree) };
-        let text = ron::to_string(&packed).map_err(|why| refused(why.to_string()))?;
+        let packed: &dyn erased_serde::Serialize = &packed;
+        let text = ron::to_string(packed).map_err(|why| refused(why.to_string()))?;
         let bytes = compress_to_vec(text.as_bytes(), LEVEL);
         Ok(format!("#{VERSION}.{}", URL_SAFE_NO_PAD.encode(bytes)))
     }

@@ -3,30 +3,47 @@
 mod pictures;
 
 use self::pictures::Pictures;
+use crate::engine::results::PAGE;
+use crate::engine::validation;
+use crate::scene::examples;
 use egui::{Context, Frame, Label, Panel, Rect, RichText, ScrollArea, TextStyle, Ui, Window, vec2};
 use egui_commonmark::{CommonMarkCache, CommonMarkViewer};
+use std::path::Path;
+use std::sync::LazyLock;
 
-/// Page of the manual: its file name, which links use, and its text.
+/// Page of the manual: its file name, which links use, and the function that returns its text.
 struct Page {
     file: &'static str,
-    text: &'static str,
+    text: fn() -> &'static str,
 }
 
 impl Page {
     /// Returns the first heading.
     fn title(&self) -> &'static str {
-        self.text.lines().next().unwrap_or_default().trim_start_matches("# ")
+        (self.text)().lines().next().unwrap_or_default().trim_start_matches("# ")
     }
 }
 
 macro_rules! pages {
     ($($file:literal),* $(,)?) => {
-        &[$(Page { file: $file, text: include_str!(concat!("../../../assets/manual/", $file)) }),*]
+        [$(Page { file: $file, text: || include_str!(concat!("../../../assets/manual/", $file)) }),*]
     };
 }
 
-/// All pages in the order of the list. The first page is the table of contents.
-const PAGES: &[Page] = pages![
+/// Page that is generated from the results of the scenes.
+const VALIDATION: Page = Page {
+    file: "validation.md",
+    text: || {
+        static TEXT: LazyLock<String> = LazyLock::new(|| {
+            let results = examples::text_of(&Path::new(examples::ROOT).join(PAGE));
+            validation::page(results.unwrap_or_default())
+        });
+        &TEXT
+    },
+};
+
+/// Pages of `assets/manual` in the order of the list. The first page is the table of contents.
+const WRITTEN: &[Page] = &pages![
     "start.md",
     "first_contact.md",
     "tour.md",
@@ -66,6 +83,11 @@ const PAGES: &[Page] = pages![
     "misprints.md",
 ];
 
+/// Iterates over all pages.
+fn pages() -> impl Iterator<Item = &'static Page> {
+    WRITTEN.iter().chain(std::iter::once(&VALIDATION))
+}
+
 /// Maximum line width \[points\].
 const READABLE_WIDTH: f32 = 780.0;
 
@@ -87,7 +109,7 @@ impl Manual {
     /// Opens the window at the page of a file.
     pub fn open_at(&mut self, file: &str) {
         self.open = true;
-        self.page = PAGES.iter().position(|page| page.file == file).unwrap_or_default();
+        self.page = pages().position(|page| page.file == file).unwrap_or_default();
     }
 
     pub fn close(&mut self) {
@@ -110,7 +132,7 @@ impl Manual {
     fn contents(&mut self, ui: &mut Ui) {
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             ui.spacing_mut().item_spacing.y = 0.0;
-            for (k, page) in PAGES.iter().enumerate() {
+            for (k, page) in pages().enumerate() {
                 if ui.selectable_label(self.page == k, page.title()).clicked() {
                     self.page = k;
                 }
@@ -119,8 +141,8 @@ impl Manual {
     }
 
     fn text(&mut self, ui: &mut Ui) {
-        let Some(page) = PAGES.get(self.page) else { return };
-        for page in PAGES {
+        let Some(page) = pages().nth(self.page) else { return };
+        for page in pages() {
             self.cache.add_link_hook(page.file);
         }
         ScrollArea::vertical().id_salt(page.file).auto_shrink(false).show(ui, |ui| {
@@ -129,7 +151,7 @@ impl Manual {
                 // The rows are as high as their text, so that links and other words share a baseline.
                 ui.spacing_mut().interact_size.y = ui.text_style_height(&TextStyle::Body);
                 // Code fences are at the beginning of a line, so every second part is a code block.
-                for (k, part) in page.text.split("\n```").enumerate() {
+                for (k, part) in (page.text)().split("\n```").enumerate() {
                     ui.push_id(k, |ui| if k % 2 == 0 { self.prose(ui, part) } else { code(ui, part) });
                 }
             });
@@ -147,7 +169,7 @@ impl Manual {
             ui.push_id(k, |ui| CommonMarkViewer::new().show(ui, &mut self.cache, text));
         }
         let followed = |page: &Page| self.cache.get_link_hook(page.file) == Some(true);
-        if let Some(k) = PAGES.iter().position(followed) {
+        if let Some(k) = pages().position(followed) {
             self.page = k;
         }
     }
@@ -170,7 +192,7 @@ fn code(ui: &mut Ui, text: &str) {
 /// Returns the texts of all pages.
 #[cfg(test)]
 pub fn texts() -> impl Iterator<Item = &'static str> {
-    PAGES.iter().map(|page| page.text)
+    pages().map(|page| (page.text)())
 }
 
 #[cfg(test)]
@@ -208,7 +230,7 @@ mod tests {
     #[test]
     fn f1_opens_it_every_page_shows_its_title_and_escape_closes_it() {
         let mut harness = open();
-        for page in PAGES {
+        for page in pages() {
             let entries = harness.query_all_by_role_and_label(Role::Button, page.title());
             let entry = entries.min_by(|a, b| a.rect().left().total_cmp(&b.rect().left())).unwrap();
             // The last entries lie below the visible part of the list.
@@ -217,9 +239,9 @@ mod tests {
             assert!(reads(&harness, page.title()), "{}", page.file);
         }
         press(&mut harness, Key::Escape);
-        assert!(!reads(&harness, PAGES[PAGES.len() - 1].title()), "Escape closes it");
+        assert!(!reads(&harness, VALIDATION.title()), "Escape closes it");
         press(&mut harness, Key::F1);
-        let tour = PAGES.iter().find(|page| page.file == Tabs::default().profiles.about().page).unwrap();
+        let tour = pages().find(|page| page.file == Tabs::default().profiles.about().page).unwrap();
         assert!(reads(&harness, tour.title()), "it opens at the page of the tab in front");
         press(&mut harness, Key::F1);
         assert!(!reads(&harness, tour.title()), "a second F1 closes it");
@@ -228,13 +250,13 @@ mod tests {
     #[test]
     fn every_tab_has_a_page() {
         let tabs = Tabs::default();
-        assert!(Tab::ALL.iter().all(|tab| PAGES.iter().any(|page| page.file == tabs.of(*tab).about().page)));
+        assert!(Tab::ALL.iter().all(|tab| pages().any(|page| page.file == tabs.of(*tab).about().page)));
     }
 
     #[test]
     fn a_link_leads_to_its_page() {
         let mut harness = open();
-        harness.query_all_by_role_and_label(Role::Button, PAGES[0].title()).next().unwrap().click();
+        harness.query_all_by_role_and_label(Role::Button, WRITTEN[0].title()).next().unwrap().click();
         harness.run_steps(3);
         harness.query_all_by_role_and_label(Role::Link, "Physics").next().unwrap().click();
         harness.run_steps(3);
@@ -247,28 +269,28 @@ mod tests {
         let files: BTreeSet<String> =
             folder.map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned()).collect();
         let files: BTreeSet<String> = files.into_iter().filter(|file| file != "pictures").collect();
-        let pages: BTreeSet<String> = PAGES.iter().map(|page| page.file.to_owned()).collect();
+        let pages: BTreeSet<String> = WRITTEN.iter().map(|page| page.file.to_owned()).collect();
         assert_eq!(files, pages);
-        assert_eq!(pages.len(), PAGES.len());
+        assert_eq!(pages.len(), WRITTEN.len());
     }
 
     #[test]
     fn pages_have_titles_of_their_own() {
-        let titles: BTreeSet<&str> = PAGES.iter().map(Page::title).collect();
-        assert_eq!(titles.len(), PAGES.len());
-        for page in PAGES {
-            assert!(page.text.starts_with("# ") && page.title().len() > 3, "{}", page.file);
+        let titles: BTreeSet<&str> = pages().map(Page::title).collect();
+        assert_eq!(titles.len(), pages().count());
+        for page in pages() {
+            assert!((page.text)().starts_with("# ") && page.title().len() > 3, "{}", page.file);
         }
     }
 
     #[test]
     fn the_page_of_keys_lists_every_key() {
-        let page = PAGES.iter().find(|page| page.file == "keyboard.md").unwrap();
+        let page = pages().find(|page| page.file == "keyboard.md").unwrap();
         for item in MENUS {
             let Some(shortcut) = item.shortcut() else { continue };
             let (name, key) = (item.name.trim_end_matches('…'), shortcut.format(&ModifierNames::NAMES, false));
             let row = format!("| {name} | {key} |");
-            assert!(page.text.contains(&row), "{} lacks: {row}", page.file);
+            assert!((page.text)().contains(&row), "{} lacks: {row}", page.file);
         }
     }
 }

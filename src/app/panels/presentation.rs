@@ -37,6 +37,12 @@ pub fn ui(
                 let buttons = [
                     ("Undo", true, "Reverts the last change", Command::Undo),
                     ("Unpin", pins > 0, "Remove all pinned curves", Command::Unpin),
+                    (
+                        "Swap",
+                        pins > 0,
+                        "Exchanges this contact with the last pinned one: the sliders move the other",
+                        Command::SwapPin,
+                    ),
                     ("Pin", true, "Keep this curve for comparison", Command::Pin),
                 ];
                 for (name, enabled, tip, command) in buttons {

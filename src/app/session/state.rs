@@ -105,7 +105,8 @@ impl Session {
             place: self.place,
             tree: self.tree.clone(),
         };
-        Ok(ron::ser::to_string_pretty(&written, ron::ser::PrettyConfig::new())?)
+        let written: &dyn erased_serde::Serialize = &written;
+        Ok(ron::ser::to_string_pretty(written, ron::ser::PrettyConfig::new())?)
     }
 
     /// Returns a session from the text of the file, with the names of the parts that were set to their defaults.

@@ -88,8 +88,8 @@ impl<M: Serialize + DeserializeOwned + Send + 'static> Reporter<M> {
     }
 }
 
-/// Encodes a value for another instance.
-fn encoded(value: &impl Serialize) -> Result<Vec<u8>, JobError> {
+/// Encodes a value for another instance. As a trait object it shares its code with that of other formats.
+fn encoded(value: &dyn erased_serde::Serialize) -> Result<Vec<u8>, JobError> {
     rmp_serde::to_vec_named(value).map_err(JobError::failed)
 }
 

@@ -2,7 +2,7 @@ use super::container::{VERSION, head_length};
 use super::{Catalogue, ModelFileError, ModelKind, SavedModel};
 use crate::engine::checked_file::HEADER;
 use crate::engine::model_file::{from_bytes, to_bytes, write};
-use crate::engine::{bytes_of, catalogue, embedded, line_in_time};
+use crate::engine::{bytes_of, catalogue, embedded, in_time as in_time_of};
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::parameters::Quantity;
 use crate::solver::physics::contact::{ContactKind, Moes};
@@ -26,8 +26,9 @@ fn embedded_models_survive_a_round_trip() {
         assert!(!model.windows.is_empty() && model.domain == entry.domain, "{}", entry.name);
         (entry.name, SavedModel::Stationary(model))
     });
-    let in_time = line_in_time().unwrap();
-    for (name, model) in steady.chain([("line_in_time", SavedModel::InTime(in_time))]) {
+    let in_time = [("line_in_time", ContactKind::Line), ("point_in_time", ContactKind::Point)];
+    let in_time = in_time.map(|(name, kind)| (name, SavedModel::InTime(in_time_of(kind).unwrap())));
+    for (name, model) in steady.chain(in_time) {
         // Together with this check, it is the same as reading a model's file.
         model.prove(&()).unwrap_or_else(|why| panic!("{name}: {why}"));
         let bytes = model.to_bytes().unwrap();

@@ -14,8 +14,8 @@ use crate::solver::discrete::grid::{ContactGrid, PointGrid};
 use crate::solver::discrete::space::PlaneSpace;
 use crate::solver::full::Problem;
 use crate::solver::full::transient::{
-    Conditions, Ended, Frame, FullMarch, Input, Inputs, Keep, MarchProgress, Marching, Signal, Trajectory, Transient,
-    TransientError, march,
+    Conditions, Ended, Frame, FullMarch, Input, Inputs, Keep, MarchProgress, Marching, Moment, Signal, Trajectory,
+    Transient, TransientError, march,
 };
 use crate::solver::limits::Number;
 use crate::solver::observer::{Observer, Progress};
@@ -25,7 +25,7 @@ use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::reduced::tpwl::{Plane, ReducedSpace, Selection, SpaceGrid, TpwlError, TpwlModel, TpwlTraining};
 use crate::solver::reduced::transient::{Reach, ReducedMarch, TrajectoryDomain, TrajectoryModel, TrajectoryStart};
 use crate::solver::reduced::{
-    Domain, GoalEquations, Iterate, PodBasis, PressureModes, SampledRows, Sampling, TestSpace, Window, all_rows,
+    Domain, GoalEquations, Iterate, PodBasis, PressureModes, SampledRows, Sampling, TestSpace, Trust, Window, all_rows,
     cubature, deformation_weights, is_finite,
 };
 use faer::Mat;
@@ -79,6 +79,9 @@ const PENALTY: f64 = 1e5;
 const ITERATES: usize = 600;
 const STEPS: usize = 400;
 
+/// Relative tolerance of the reference contact, because of rounding errors.
+const ROUNDING: f64 = 1e-6;
+
 /// Message: a matrix of the test functions is singular, or too few rows satisfy the equations of the cubature.
 const DEGENERATE: &str = "the responses could not be decomposed, or their steps need too many sampled equations; try \
                           fewer modes or more rows per mode";
@@ -129,6 +132,41 @@ impl ResponseBasis {
         Ok(Self { own, training: *training, exact, swept })
     }
 
+    /// Recovers the basis of a reduced model that responses trained, for a contact in its range. The model itself marches
+    /// along the sweep, which takes a small part of the time of the training.
+    ///
+    /// # Errors
+    /// [`TrainingError`] if the model is not one of a circular contact, if the contact is outside its range, if it or the
+    /// sweep is not solved, or if the observer cancels.
+    pub fn of_model(
+        model: &Arc<TrajectoryModel>,
+        (point, lubricant): (OperatingPoint, Lubricant),
+        observer: &dyn Observer,
+    ) -> Result<Self, TrainingError> {
+        let refused = || TrainingError::Specification(COVERED.to_owned());
+        let grid = model.window.grid.point().ok_or_else(refused)?;
+        let training = ResponseTraining::of_model(model);
+        training.check()?;
+        let own = Transient { lubricant, ..Transient::new(point, Inputs::default(), 1.0, training.step) };
+        let problem = own.problem()?;
+        if let Trust::Outside(why) = model.domain.reference.trust(&problem) {
+            return Err(TrainingError::Specification(format!("the reduced model does not cover this contact: {why}")));
+        }
+        let test = test_space(grid, &own, &problem, model.window.pressure.basis(), observer)?;
+        let mut exact = TrajectoryModel::clone(model);
+        exact.window.set_rows(Sampling::All, all_rows(&test));
+        let transient = Transient { keep: Keep::Every(1), ..training.swept(&own) };
+        let stage = "March of the reduced model along a sweep of loads and speeds".to_owned();
+        let progress = MarchProgress { observer, stage, duration: transient.duration };
+        let swept = finished(march(&mut ReducedMarch::new(model, &transient)?, &transient, &progress)?)?;
+        Ok(Self { own, training, exact: Arc::new(exact), swept })
+    }
+
+    /// Returns the moments of the march that sweeps the range.
+    pub fn swept(&self) -> &[Moment] {
+        &self.swept.moments
+    }
+
     /// Samples the equations of the reduced model.
     ///
     /// # Errors
@@ -140,23 +178,44 @@ impl ResponseBasis {
         Ok(model)
     }
 
-    /// Linearises the contact about states of the march with the first `modes` modes. A rule selects the states.
+    /// Linearises the contact about states of the march with the first `modes` modes. A rule selects the states, or
+    /// about `points` of them if a number is given.
     ///
     /// # Errors
     /// [`TpwlError`] if a setting is refused.
-    pub fn linearised(&self, modes: usize, selection: Selection) -> Result<TpwlModel, TpwlError> {
+    pub fn linearised(
+        &self,
+        modes: usize,
+        selection: Selection,
+        points: Option<usize>,
+    ) -> Result<TpwlModel, TpwlError> {
         let window = &self.exact.window;
         let Some(grid) = window.grid.point() else { return Err(TpwlError::NoTraining) };
         let modes = modes.min(window.reconstruction.nrows());
         let test = Mat::from_fn(window.reconstruction.ncols(), modes, |row, k| window.reconstruction[(k, row)]);
-        let space =
-            ReducedSpace::new(SpaceGrid::Plane(Plane(Arc::clone(grid))), window.pressure.basis(), test, PENALTY);
+        let grid = SpaceGrid::Plane(Plane(Arc::clone(grid)));
+        let space = ReducedSpace::new(grid, window.pressure.basis(), test, [PENALTY; 2]);
         let (values, training) = (window.pressure.singular_values().to_vec(), TpwlTraining { modes, selection });
-        TpwlModel::train_in(space, values, &[&self.swept], training)
+        TpwlModel::train_in(space, values, &[&self.swept], training, points)
     }
 }
 
 impl ResponseTraining {
+    /// Returns the settings of a model that responses trained.
+    pub fn of_model(model: &TrajectoryModel) -> Self {
+        let TrajectoryDomain { load, speed, step, .. } = &model.domain;
+        let modes = model.window.pressure.count();
+        Self {
+            load: load.range,
+            speed: speed.range,
+            shortest_period: shortest_period(load),
+            modes,
+            rows_per_mode: model.rows() as f64 / modes.max(1) as f64,
+            step: *step,
+            ..Self::default()
+        }
+    }
+
     /// Checks the settings.
     ///
     /// # Errors
@@ -210,8 +269,8 @@ impl ResponseTraining {
         (0..FREQUENCIES).map(move |k| TAU / (LONGEST_PERIOD * ratio.powf(k as f64 / (FREQUENCIES - 1) as f64)))
     }
 
-    /// Returns the march along loads and speeds that sweep the range with falling periods.
-    fn swept(&self, own: &Transient) -> Transient {
+    /// Returns loads and speeds that sweep the range with falling periods, and the duration.
+    pub fn sweep(&self) -> (Inputs, f64) {
         let times: Vec<f64> = (0..=STEPS).map(|k| k as f64 * self.step).collect();
         let duration = STEPS as f64 * self.step;
         // The period falls exponentially from the longest to the shortest: φ = ∫ 2π/period dT.
@@ -230,6 +289,12 @@ impl ResponseTraining {
             speed: swept(self.speed, &|time| -phase(0.618 * time).sin()),
             ..Inputs::default()
         };
+        (inputs, duration)
+    }
+
+    /// Returns the march along the sweep.
+    fn swept(&self, own: &Transient) -> Transient {
+        let (inputs, duration) = self.sweep();
         Transient { inputs, duration, ..own.clone() }
     }
 }
@@ -336,7 +401,12 @@ fn exact(
     let mut window = Window::new((0.0, f64::INFINITY), contact, pressure, deformation, Vec::new(), Sampling::All, rows);
     window.penalty = PENALTY;
     let domain = domain(own, problem, training);
-    let (title, scene, locals, log) = (String::new(), String::new(), Vec::new(), Vec::new());
+    let (title, scene, locals) = (String::new(), String::new(), Vec::new());
+    let log = vec![format!(
+        "{} steady contacts, each with its responses to load and speed at {FREQUENCIES} frequencies; a full march of {STEPS} \
+         steps along a sweep of loads and speeds",
+        steady.len()
+    )];
     Ok(TrajectoryModel { title, frame: Frame::Fixed, window, locals, starts, domain, scene, log })
 }
 
@@ -345,11 +415,21 @@ fn constant(input: Input) -> Inputs {
     Inputs { load: signal(input.load), speed: signal(input.speed), ..Inputs::default() }
 }
 
+/// Returns the largest rate of an input that oscillates over its range.
+fn fastest((low, high): (f64, f64), period: f64) -> f64 {
+    0.5 * (high - low) * TAU / period
+}
+
+/// Returns the shortest period of an input, the inverse of [`fastest`].
+fn shortest_period(reach: &Reach) -> f64 {
+    fastest(reach.range, 1.0) / reach.rate
+}
+
 /// Returns the trained range.
 fn domain(own: &Transient, problem: &Problem, training: &ResponseTraining) -> TrajectoryDomain {
-    let reach = |range: (f64, f64)| Reach { range, rate: 0.5 * (range.1 - range.0) * TAU / training.shortest_period };
-    let at = |value: f64| (value, value);
-    let pressure = problem.point.hertz().pressure_pa;
+    let reach = |range| Reach { range, rate: fastest(range, training.shortest_period) };
+    let at = |value: f64| (value * (1.0 - ROUNDING), value * (1.0 + ROUNDING));
+    let pressure = at(problem.point.hertz().pressure_pa).1;
     TrajectoryDomain {
         reference: Domain {
             contact: own.point.kind,

@@ -114,14 +114,43 @@ fn under_a_prescribed_separation_the_load_is_that_of_the_full_march() {
 #[test]
 fn a_linearised_model_in_the_same_basis_follows_a_full_march_roughly() {
     let basis = ResponseBasis::new(&grid(), BALL, lubricant(), &TRAINING, &()).unwrap();
-    let model = basis.linearised(30, Selection::Distance { tolerance: 0.03 }).unwrap();
+    let model = basis.linearised(30, Selection::Distance { tolerance: 0.03 }, None).unwrap();
     assert!(model.space.modes() == 30 && model.points.len() > 10, "{} points", model.points.len());
     let transient = driven(Inputs::load(harmonic(0.08, 1.2)));
     let (seen, _) = tpwl::solve(&model, &transient, Weighting::DualTaylor, &()).unwrap();
     let off = full(&transient).difference(&seen, Quantity::CentralFilm, (0.0, transient.duration)).unwrap();
     assert!(seen.finished() && off.1 < 1e-2, "{off:?}");
+    let twenty = basis.linearised(30, Selection::Distance { tolerance: 0.03 }, Some(20)).unwrap();
+    assert!((15..=25).contains(&twenty.points.len()), "{} points", twenty.points.len());
     let other = Transient { point: OperatingPoint { speed_m_per_s: 0.3, ..BALL }, ..transient };
     assert!(tpwl::solve(&model, &other, Weighting::DualTaylor, &()).is_err());
+}
+
+#[test]
+fn the_basis_of_a_reduced_model_is_that_of_its_training() {
+    let model = trained();
+    let own = ResponseTraining::of_model(&model);
+    assert!((own.shortest_period / TRAINING.shortest_period - 1.0).abs() < 1e-12);
+    assert_eq!(
+        (own.load, own.speed, own.modes, own.step),
+        (TRAINING.load, TRAINING.speed, TRAINING.modes, TRAINING.step)
+    );
+    let other = OperatingPoint { load: 1.01 * BALL.load, ..BALL };
+    assert!(
+        ResponseBasis::of_model(&model, (other, lubricant()), &())
+            .err()
+            .unwrap()
+            .to_string()
+            .contains("does not cover")
+    );
+    // The contact of the training up to rounding.
+    let point = OperatingPoint { load: (1.0 + 1e-9) * BALL.load, ..BALL };
+    let basis = ResponseBasis::of_model(&model, (point, lubricant()), &()).unwrap();
+    let linearised = basis.linearised(30, Selection::Distance { tolerance: 0.03 }, None).unwrap();
+    let transient = Transient { point, ..driven(Inputs::load(harmonic(0.08, 1.2))) };
+    let (seen, _) = tpwl::solve(&linearised, &transient, Weighting::DualTaylor, &()).unwrap();
+    let off = full(&transient).difference(&seen, Quantity::CentralFilm, (0.0, transient.duration)).unwrap();
+    assert!(seen.finished() && off.1 < 1e-2, "{off:?}");
 }
 
 #[test]

@@ -6,12 +6,13 @@ use super::recorded::Recorded;
 use super::runs::{TransientRuns, insert};
 use crate::app::tabs::transient::{Run, Setup};
 use crate::app::wake::wake;
-use crate::engine::Store;
 use crate::engine::job::Background;
+use crate::engine::{Store, in_time};
 use crate::scene::study::transient::{Kind, MarchedBy, Model, Row};
 use crate::scene::{Drive, ReducedTransient, Scene, StudyRow, TransientStudy};
 use crate::solver::full::transient::{Ended, Frame, Inputs};
-use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+use crate::solver::training::ResponseTraining;
 use egui::Context;
 use std::sync::Arc;
 
@@ -91,7 +92,7 @@ impl Following {
 
     /// Returns true if training would give bitwise the same models as the present ones.
     fn final_for(&self, wanted: &Setup) -> bool {
-        let kept = self.kept.as_ref().filter(|_| !wanted.study.trains_on_itself());
+        let kept = self.kept.as_ref().filter(|_| !wanted.study.trains_on_itself(wanted.point.kind));
         let expected = usize::from(wanted.study.reduced.is_some()) * wanted.study.frames.len()
             + usize::from(wanted.study.linearised.is_some());
         kept.is_some_and(|(setup, models)| setup.point == wanted.point && models.len() == expected)
@@ -129,6 +130,12 @@ impl TransientRuns {
     pub fn trained_by(&self) -> Option<Vec<Drive>> {
         let (setup, _) = self.following.kept.as_ref()?;
         let study = &setup.study;
+        if setup.point.kind == ContactKind::Point {
+            let training =
+                study.responses().or_else(|| Some(ResponseTraining::of_model(&*in_time(setup.point.kind).ok()?)))?;
+            let (inputs, duration) = training.sweep();
+            return Some(vec![Drive { name: String::new(), inputs, duration }]);
+        }
         let own = || vec![Drive { name: String::new(), inputs: study.inputs.clone(), duration: study.duration }];
         Some(if study.trainings.is_empty() { own() } else { study.trainings.clone() })
     }

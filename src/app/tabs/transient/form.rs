@@ -68,7 +68,8 @@ fn names(input: Input) -> Names {
 /// Draws the form. `last` is the field that was changed last.
 pub fn ui(ui: &mut Ui, last: &mut LastField, context: &Context<'_>, commands: &mut Commands) {
     let mut read_table = false;
-    let point = context.document.point.kind == ContactKind::Point;
+    let (kind, elliptic) = (context.document.point.kind, context.document.point.is_elliptic());
+    let point = kind == ContactKind::Point;
     *last = edit(ui, ("transient", *last), context, commands, |ui, form, study| {
         heading(ui, "Inputs");
         for input in Input::ALL.into_iter().filter(|input| !(point && *input == Input::Radius)) {
@@ -85,12 +86,14 @@ pub fn ui(ui: &mut Ui, last: &mut LastField, context: &Context<'_>, commands: &m
             ui.weak(format!("Headless runs follow further inputs too: {}.", names.join(", ")));
         }
         time_ui(ui, form, study);
-        if point {
-            heading(ui, "Methods");
-            ui.weak("Point contacts run by the full system, in the fixed frame and with a constant radius.");
-        } else {
+        if !point {
             frames_ui(ui, form, &mut study.frames);
-            methods::ui(ui, form, study);
+        }
+        if elliptic {
+            heading(ui, "Methods");
+            ui.weak("Elliptical contacts run by the full system, in the fixed frame and with a constant radius.");
+        } else {
+            methods::ui(ui, form, study, kind);
         }
     });
     if !context.document.saves_transient() && context.document.transient.is_some() {

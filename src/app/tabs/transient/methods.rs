@@ -13,45 +13,94 @@ use crate::solver::reduced::tpwl::Weighting;
 use egui::{Checkbox, Ui};
 
 /// Draws the choice of all methods.
-pub fn ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStudy) {
+pub fn ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStudy, kind: ContactKind) {
     heading(ui, "Methods");
-    let tip = "Always run: it trains the models and checks them";
+    let tip = match kind {
+        ContactKind::Line => "Always run: it trains the models and checks them",
+        ContactKind::Point => "Always run: it checks the models",
+    };
     ui.add_enabled(false, Checkbox::new(&mut true, "Full system")).on_disabled_hover_text(tip);
     let mut on = study.reduced.is_some();
     let tip = "Solves the nonlinear equations in a reduced space, with sampled equations (RNSA); trained beforehand";
     if ui.add(Checkbox::new(&mut on, "Reduced model")).on_hover_text(tip).changed() {
-        study.reduced = on.then(ReducedTransient::default);
+        study.reduced = on.then(ReducedTransient::embedded);
         form.changed = Some("Methods");
     }
-    if let Some(model) = study.reduced.as_ref().and_then(|reduced| reduced.model.as_ref()) {
-        let tip = "Saved before, or trained by another scene; switch the reduced model off and on to train one here";
-        ui.weak(match model {
-            ModelSource::Embedded => "The built-in model".to_owned(),
-            ModelSource::File(path) => format!("The model {}", path.display()),
-            ModelSource::Trained(path) => format!("The model that {} trains", path.display()),
-        })
-        .on_hover_text(tip);
-    } else if let Some(reduced) = &mut study.reduced {
-        let plain = QuantityKind::Number;
+    if let Some(reduced) = &mut study.reduced {
+        reduced_ui(ui, form, reduced, kind);
+    } else if kind == ContactKind::Point {
+        study.linearised = None;
+    }
+    if kind == ContactKind::Line || study.reduced.is_some() {
+        linearised_ui(ui, form, study, kind);
+    }
+    form.message(ui, "Methods");
+    trainings_ui(ui, form, study, kind);
+}
+
+/// Draws where the reduced model comes from, and the settings of its training.
+fn reduced_ui(ui: &mut Ui, form: &mut Form<'_>, reduced: &mut ReducedTransient, kind: ContactKind) {
+    match &reduced.model {
+        Some(ModelSource::File(path)) => _ = ui.weak(format!("The model {}", path.display())),
+        Some(ModelSource::Trained(path)) => _ = ui.weak(format!("The model that {} trains", path.display())),
+        Some(ModelSource::Embedded) | None => {
+            let (was, mut embedded) = (reduced.is_embedded(), reduced.is_embedded());
+            choose(
+                ui,
+                "Its training",
+                "Where the reduced model comes from",
+                &mut embedded,
+                &[true, false],
+                |embedded| {
+                    if embedded {
+                        ("Built in", "The model of the program if its range contains the run; otherwise one is trained")
+                    } else {
+                        (
+                            "For this contact",
+                            "Trained when the run starts; for a circular contact this takes about a minute",
+                        )
+                    }
+                },
+            );
+            if embedded != was {
+                *reduced = if embedded { ReducedTransient::embedded() } else { ReducedTransient::trained(kind) };
+                form.changed = Some("Methods");
+            }
+        }
+    }
+    let plain = QuantityKind::Number;
+    if let Some(responses) = &mut reduced.responses {
+        let relative = "relative to the contact of the sliders";
+        let [(load_low, load_high), (speed_low, speed_high)] =
+            [&mut responses.load, &mut responses.speed].map(|r| (&mut r.0, &mut r.1));
+        form.row(ui, "Smallest load", plain, load_low, &format!("Start of the trained range, {relative}"));
+        form.row(ui, "Largest load", plain, load_high, &format!("End of the trained range, {relative}"));
+        form.row(ui, "Smallest speed", plain, speed_low, &format!("Start of the trained range, {relative}"));
+        form.row(ui, "Largest speed", plain, speed_high, &format!("End of the trained range, {relative}"));
+        form.row(ui, "Shortest period", plain, &mut responses.shortest_period, "Of load and speed, in units of a/u_m");
+        form.count(ui, "Pressure modes", &mut responses.modes, "A wider range needs more");
+        form.row(ui, "Rows per mode", plain, &mut responses.rows_per_mode, "Sampled equations per pressure mode");
+    } else if reduced.model.is_none() {
         form.row(ui, "Loss", plain, &mut reduced.loss, "Loss of information of the bases (2.90)");
         form.row(ui, "Rows per mode", plain, &mut reduced.rows_per_mode, "Sampled equations per pressure mode");
     }
-    linearised_ui(ui, form, study);
-    form.message(ui, "Methods");
-    trainings_ui(ui, form, study);
 }
 
 /// Draws the settings of the linearised model.
-pub fn linearised_ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStudy) {
+pub fn linearised_ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStudy, kind: ContactKind) {
     let mut on = study.linearised.is_some();
     let tip = "Superposes systems linearised about trained states (TPWL, 4.27): one small linear system per step; in \
                the fixed frame";
     if ui.add(Checkbox::new(&mut on, "Linearised model")).on_hover_text(tip).changed() {
-        study.linearised = on.then(LinearisedTransient::default);
+        study.linearised = on.then(|| LinearisedTransient::usual(kind));
         form.changed = Some("Methods");
     }
     let Some(linearised) = &mut study.linearised else { return };
-    form.count(ui, "Modes", &mut linearised.modes, "Pressure modes of its space; fewer than 85 cost accuracy");
+    let tip = match kind {
+        ContactKind::Line => "Pressure modes of its space; fewer than 85 cost accuracy",
+        ContactKind::Point => "Pressure modes of its space, at most those of the reduced model",
+    };
+    form.count(ui, "Modes", &mut linearised.modes, tip);
     let own = RULES.iter().position(|rule| rule.name() == linearised.selection.name()).unwrap_or(0);
     let mut rule = own;
     choose(ui, "Operating points", "Selection of the trained states for linearisation", &mut rule, &[0, 1], |k| {
@@ -118,11 +167,11 @@ pub fn linearised_ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStud
 }
 
 /// Draws the training inputs of the models: the run itself, or other inputs that were stored for it.
-pub fn trainings_ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStudy) {
-    if !study.trains() {
+pub fn trainings_ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStudy, kind: ContactKind) {
+    if !study.trains(kind) {
         return;
     }
-    let own = study.trains_on_itself();
+    let own = study.trains_on_itself(kind);
     let contacts = study.training_loads.len().max(study.training_contacts.len()).max(1);
     ui.label(match study.trainings.len().max(1) * contacts {
         _ if own => "Trained on the run itself.".to_owned(),

@@ -2,8 +2,9 @@
 
 use crate::app::document::{Document, Key};
 use crate::app::in_use::question;
-use crate::engine::line_in_time;
+use crate::engine::in_time;
 use crate::scene::{Grid, LinearisedTransient, ModelSource, ReducedTransient, Scene, Study, TransientStudy};
+use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::Problem;
 use crate::solver::full::transient::TimeStep;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
@@ -29,11 +30,16 @@ pub struct Setup {
 fn unserved(document: &Document, study: &TransientStudy) -> Option<String> {
     study.reduced.as_ref().filter(|reduced| reduced.is_embedded())?;
     // Another place reports a damaged model.
-    let model = line_in_time().ok()?;
+    let model = in_time(document.point.kind).ok()?;
     if study.frames != [model.frame] {
         return Some("it supports the fixed frame only".to_owned());
     }
-    if document.transient_grid().spec() != Some(model.window.grid.spec()) {
+    let grid = document.transient_grid();
+    let spec = match document.point.kind {
+        ContactKind::Line => grid.spec(),
+        ContactKind::Point => grid.point_spec().map(GridSpec::Plane),
+    };
+    if spec != Some(model.window.grid.spec()) {
         return Some("it has another grid".to_owned());
     }
     let problem = Problem::new(&document.point, document.lubricant).ok()?;
@@ -66,7 +72,7 @@ impl Setup {
             *path = folder.join(&*path);
         }
         if unserved(document, &study).is_some() {
-            study.reduced = Some(ReducedTransient::default());
+            study.reduced = Some(ReducedTransient::trained(document.point.kind));
         }
         Self {
             point: document.point,
@@ -115,7 +121,10 @@ impl Setup {
             Grid::GradedNodes { nodes, .. } => nodes as f64,
             _ => 600.0,
         };
-        let modelled = self.study.trains();
+        if self.study.responses().is_some() {
+            return false;
+        }
+        let modelled = self.study.trains(self.point.kind);
         let trained: f64 = self.study.trainings.iter().map(|drive| drive.duration).sum();
         let trained = if modelled {
             trained * self.study.training_loads.len().max(self.study.training_contacts.len()).max(1) as f64

@@ -9,7 +9,7 @@ use crate::scene::experiment::Experiment;
 use crate::scene::grid::Grid;
 use crate::scene::method::ModelSource;
 use crate::scene::written::is_default;
-use crate::solver::full::transient::{Frame, Inputs, Scheme, Signal, TimeStep, Transient, Unsupported};
+use crate::solver::full::transient::{Frame, Inputs, Scheme, Signal, TimeStep, Transient};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::reduced::tpwl::{Selection, Weighting};
 use crate::solver::training::{LocalBases, ResponseTraining, TrajectoryTraining};
@@ -194,6 +194,19 @@ impl Drive {
 }
 
 impl ReducedTransient {
+    /// Returns the usual training of a circular contact.
+    pub fn by_responses() -> Self {
+        Self { responses: Some(ResponseTraining::default()), ..Self::default() }
+    }
+
+    /// Returns the usual training of a contact.
+    pub fn trained(kind: ContactKind) -> Self {
+        match kind {
+            ContactKind::Line => Self::default(),
+            ContactKind::Point => Self::by_responses(),
+        }
+    }
+
     /// Returns the embedded model.
     pub fn embedded() -> Self {
         Self { model: Some(ModelSource::Embedded), ..Self::default() }
@@ -219,14 +232,16 @@ impl ReducedTransient {
 
     fn check(&self, experiment: &Experiment) -> Checked {
         let (grid, kind) = (&experiment.grid, experiment.contact);
+        if experiment.point().is_ok_and(|point| point.is_elliptic()) {
+            return Err(refuse(
+                "study.reduced",
+                "must be left out for unequal radii: models cover line and circular contacts",
+            ));
+        }
         if self.model.is_some() {
             if *self != (Self { model: self.model.clone(), ..Self::default() }) {
                 let problem = "must be the only field: all other fields belong to a training";
                 return Err(refuse("study.reduced.model", problem));
-            }
-            // The model of the program is one of line contacts.
-            if self.is_embedded() && kind == ContactKind::Point {
-                return Err(coverage::refused(Unsupported::PointContact));
             }
             return Ok(());
         }
@@ -268,6 +283,16 @@ impl ReducedTransient {
 }
 
 impl LinearisedTransient {
+    /// Returns the usual settings for a contact. A circular contact has the modes of its reduced model, and fewer points.
+    pub fn usual(kind: ContactKind) -> Self {
+        match kind {
+            ContactKind::Line => Self::default(),
+            ContactKind::Point => {
+                Self { modes: 80, selection: Selection::Distance { tolerance: 0.07 }, ..Self::default() }
+            }
+        }
+    }
+
     /// Returns all selection rules, starting with the first.
     pub fn selections(&self) -> impl Iterator<Item = Selection> {
         std::iter::once(self.selection).chain(self.further.iter().copied())
@@ -393,12 +418,9 @@ impl TransientStudy {
             coverage::check_models(experiment)?;
         }
         self.reduced.iter().try_for_each(|reduced| reduced.check(experiment))?;
-        if experiment.contact == ContactKind::Point && self.linearised.is_some() && self.responses().is_none() {
-            let problem = "needs `reduced: (responses: ())` for a point contact: both models have one basis";
+        if experiment.contact == ContactKind::Point && self.linearised.is_some() && self.reduced.is_none() {
+            let problem = "needs `reduced` for a point contact: both models have one basis";
             return Err(refuse("study.linearised", problem));
-        }
-        if self.responses().is_some() && self.linearised.as_ref().is_some_and(|own| own.points.is_some()) {
-            return Err(refuse("study.linearised.points", "is for line contacts; give the tolerance of the selection"));
         }
         self.linearised.iter().try_for_each(|linearised| linearised.check(&self.frames))
     }

@@ -46,7 +46,7 @@ impl TransientStudy {
 
     /// Returns the march along the study's own inputs. It stores fields if models are trained from it.
     pub fn own_march(&self, point: OperatingPoint, lubricant: Lubricant, frame: Frame) -> Transient {
-        let trains = self.trains_on_itself() && self.trains();
+        let trains = self.trains_on_itself(point.kind);
         Transient {
             point,
             lubricant,
@@ -61,20 +61,26 @@ impl TransientStudy {
         }
     }
 
-    /// Returns true if the study trains models.
-    pub fn trains(&self) -> bool {
-        self.linearised.is_some() || self.reduced.as_ref().is_some_and(|reduced| reduced.training().is_some())
+    /// Returns true if the study trains models from full marches. Models of circular contacts are trained around the
+    /// reference contact instead.
+    pub fn trains(&self, kind: ContactKind) -> bool {
+        let models =
+            self.linearised.is_some() || self.reduced.as_ref().is_some_and(|reduced| reduced.training().is_some());
+        models && kind == ContactKind::Line
     }
 
     /// Returns true if models are trained from the march along the study's own inputs.
-    pub fn trains_on_itself(&self) -> bool {
-        self.trainings.is_empty() && self.training_loads.is_empty() && self.training_contacts.is_empty()
+    pub fn trains_on_itself(&self, kind: ContactKind) -> bool {
+        self.trains(kind)
+            && self.trainings.is_empty()
+            && self.training_loads.is_empty()
+            && self.training_contacts.is_empty()
     }
 
     /// Returns the marches for training the models of a frame, contact by contact. Empty if they are trained from the
     /// study's own march, `own`.
     pub fn training_marches(&self, own: &Transient) -> Vec<Transient> {
-        if self.trains_on_itself() {
+        if self.trains_on_itself(own.point.kind) {
             return Vec::new();
         }
         let loaded = self.training_loads.iter().map(|&load| OperatingPoint { load, ..own.point });
@@ -124,7 +130,7 @@ mod tests {
         let linearised = "linearised: (modes: 10, selection: Step(tolerance: 0.001))";
         let (point, own) = study(&format!("{load}, {linearised}"));
         let march = |study: &TransientStudy| study.own_march(point, Lubricant::default(), Frame::Fixed);
-        assert!(own.trains_on_itself() && own.training_marches(&march(&own)).is_empty());
+        assert!(own.trains_on_itself(point.kind) && own.training_marches(&march(&own)).is_empty());
         assert_eq!(march(&own).keep, Keep::Every(2), "6500 steps, of which about 3000 states are kept");
 
         let (_, plain) = study(load);

@@ -154,7 +154,7 @@ impl Question for TransientStudy {
     /// (ratio of the medians of the steps). For a reduced model, `trained` is 1 if the march stayed inside the trained
     /// range and 0 otherwise. For a linearised model, `reach_median` and `reach_max` are distances of steps from the
     /// trained trajectories, in distances between operating points. `training_s` is the time of the full training
-    /// marches \[s\], if they are not the study's own march.
+    /// marches \[s\], if they are not the study's own march; for a circular contact that of the basis.
     ///
     /// Values of marches along further inputs are prefixed by the name of the inputs, as in
     /// `triangle.fixed.rnsa.H_c.difference_l2`.

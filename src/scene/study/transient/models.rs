@@ -161,8 +161,8 @@ impl Runner<'_, '_> {
             (self.tell)(Row::Model(model.clone()));
             models.push(model);
         }
-        if let Some(responses) = reduced.as_ref().and_then(|reduced| reduced.responses) {
-            self.train_by_responses(&responses, &own.transient, linearised, &mut models)?;
+        if self.grid.point().is_some() {
+            self.models_of_a_circle(&own.transient, linearised, &mut models)?;
             return Ok(models);
         }
         let training = reduced.as_ref().and_then(ReducedTransient::training);
@@ -203,27 +203,40 @@ impl Runner<'_, '_> {
         Ok(trained)
     }
 
-    /// Trains the models of a circular contact around the reference contact of a march.
-    fn train_by_responses(
+    /// Trains the models of a circular contact around the reference contact of a march. A linearised model shares the
+    /// basis of the reduced one.
+    fn models_of_a_circle(
         &self,
-        training: &ResponseTraining,
         own: &Transient,
         linearised: Option<&LinearisedTransient>,
         models: &mut Vec<Model>,
     ) -> Result<(), RunError> {
-        let begun = Stopwatch::start();
-        let basis = Arc::new(self.responses(training, own)?);
+        let (begun, observer) = (Stopwatch::start(), self.setting.observer);
+        let asked = self.study.responses();
+        let saved = self.saved.as_ref().filter(|_| asked.is_none() && linearised.is_some());
+        let basis = match (asked, saved) {
+            (Some(training), _) => self.responses(&training, own)?,
+            (None, Some(model)) => ResponseBasis::of_model(model, (own.point, own.lubricant), observer)?,
+            (None, None) => return Ok(()),
+        };
+        let basis = Arc::new(basis);
+        let (moments, cut_short) = (vec![basis.swept().to_vec()], Vec::new());
+        (self.tell)(Row::Trained { frame: own.frame, wall_s: begun.seconds(), moments, cut_short });
         for selection in linearised.iter().flat_map(|linearised| linearised.selections()) {
-            let (basis, asked) = (Arc::clone(&basis), linearised.cloned().unwrap_or_default());
-            let train = move || basis.linearised(asked.modes, selection);
-            let model = Arc::new(on_one_thread(self.setting.observer, train)??);
+            let (begun, basis) = (Stopwatch::start(), Arc::clone(&basis));
+            let LinearisedTransient { modes, points, .. } = linearised.cloned().unwrap_or_default();
+            let train = move || basis.linearised(modes, selection, points);
+            let model = Arc::new(on_one_thread(observer, train)??);
             self.push_linearised(model, linearised, selection, begun.seconds(), models);
         }
-        let model = basis.reduced(self.setting.observer)?;
-        let (name, wall_s) = (reduced_name(model.frame), begun.seconds());
-        let model = Model { name, frame: model.frame, kind: Kind::Reduced(Arc::new(model)), wall_s };
-        (self.tell)(Row::Model(model.clone()));
-        models.push(model);
+        if asked.is_some() {
+            let begun = Stopwatch::start();
+            let model = Arc::new(basis.reduced(observer)?);
+            let (name, wall_s) = (reduced_name(model.frame), begun.seconds());
+            let model = Model { name, frame: model.frame, kind: Kind::Reduced(model), wall_s };
+            (self.tell)(Row::Model(model.clone()));
+            models.push(model);
+        }
         Ok(())
     }
 

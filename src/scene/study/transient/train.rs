@@ -30,7 +30,7 @@ impl TransientStudy {
     /// Loads the reduced model that the study refers to; `None` if it trains one or has none.
     pub(super) fn saved_model(&self, setting: &mut Setting<'_>) -> Result<Option<Arc<TrajectoryModel>>, RunError> {
         let Some(source) = self.reduced.as_ref().and_then(|reduced| reduced.model.as_ref()) else { return Ok(None) };
-        let model = setting.bench.trajectory_model(source, setting.observer)?;
+        let model = setting.bench.trajectory_model(source, setting.experiment.contact, setting.observer)?;
         if !self.frames.contains(&model.frame) {
             return Err(RunError::Study(format!(
                 "the reduced model has another frame than the study: write `frames: [{:?}]`, or add this frame to the \

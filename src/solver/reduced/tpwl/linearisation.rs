@@ -4,8 +4,8 @@
 use super::space::{INPUTS, ReducedSpace, input_vector};
 use crate::solver::discrete::grid::dot;
 use crate::solver::discrete::nodes::Nodes;
+use crate::solver::discrete::reynolds::CENTER;
 use crate::solver::discrete::reynolds::generalized::PlaneGradient;
-use crate::solver::discrete::reynolds::{CENTER, PENALTY};
 use crate::solver::full::Problem;
 use crate::solver::full::transient::Input;
 use crate::solver::reduced::matrix_values;
@@ -46,7 +46,7 @@ pub struct SystemFunctions {
     pub flux: Vec<f64>,
 }
 
-/// Slope of the penalty Λ = −γ̄ min(P, 0) in the linearised systems. The value of the penalty is that of the full
+/// Slope of the penalty Λ = −γ̄ min(P, 0) in the linearised systems of line contacts. The value of the penalty is that of the full
 /// system, with γ̄ = 10⁶. With that slope, however, each system would force the pressures on its side of the moving
 /// cavitation boundary to zero, even where its neighbours have none. The errors of the modes in the cavitated region
 /// would then dominate all other rows. There the film only needs a restraint.
@@ -136,7 +136,7 @@ impl Linearisation {
                 -geometry.upwind.iter().zip(stencil).map(|(w, node)| w * nodes[node].flow).sum::<f64>();
             storage[(k, value)] = flow;
             // Replaces the penalty of the slope by that of the value.
-            flux[(k, value)] = row.value - (PENALTY - space.penalty_slope) * fields.pressure[own].min(0.0);
+            flux[(k, value)] = row.value - (space.penalty - space.penalty_slope) * fields.pressure[own].min(0.0);
         }
         let (storage, mut flux) = (tested(space, storage.as_ref()), tested(space, flux.as_ref()));
         for (j, l) in space.load.iter().enumerate() {

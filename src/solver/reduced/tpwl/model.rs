@@ -4,7 +4,6 @@ use super::linearisation::{Linearisation, PENALTY_SLOPE, SystemFunctions};
 use super::selection::{Selection, Selector, TrainedMoment, with_points};
 use super::space::{INPUTS, ReducedSpace, input_vector, same_but_load};
 use super::weights::square_distance;
-use crate::solver::discrete::reynolds::PENALTY;
 use crate::solver::full::transient::{Frame, State, Trajectory, TransientError};
 use crate::solver::full::{Mesh, Problem, SolveError};
 use crate::solver::limits::Number;
@@ -217,11 +216,15 @@ impl TpwlModel {
         singular_values: Vec<f64>,
         trajectories: &[&Trajectory],
         training: TpwlTraining,
+        points: Option<usize>,
     ) -> Result<Self, TpwlError> {
         if check(trajectories, training)?.mesh != space.grid.mesh() {
             return Err(TpwlError::other("grid"));
         }
         let mut model = Self::along(space, singular_values, trajectories, training);
+        if let Some(points) = points {
+            model.training.selection = model.selection_of(training.selection, points);
+        }
         model.choose_points()?;
         Ok(model)
     }
@@ -404,9 +407,9 @@ pub fn check_frame(frame: Frame) -> Result<(), TpwlError> {
 
 /// Returns P as the penalty would give it: −λ/γ̄ where a multiplier λ balances the rows. A linearised system has no
 /// active set, so its cavitated film is restrained by the penalty slope for every cavitation model of the training.
-fn penalised(state: &State) -> Arc<[f64]> {
+fn penalised(state: &State, penalty: f64) -> Arc<[f64]> {
     let multiplier = state.multiplier.iter().copied().chain(std::iter::repeat(0.0));
-    state.pressure.iter().zip(multiplier).map(|(pressure, multiplier)| pressure - multiplier / PENALTY).collect()
+    state.pressure.iter().zip(multiplier).map(|(pressure, multiplier)| pressure - multiplier / penalty).collect()
 }
 
 /// Returns a trajectory in the reduced space.
@@ -415,7 +418,7 @@ fn moments(space: &ReducedSpace, trajectory: &Trajectory) -> Vec<TrainedMoment> 
         time: state.time,
         input: trajectory.transient.inputs.at(state.time),
         state: space.project(state),
-        pressure: penalised(state),
+        pressure: penalised(state, space.penalty),
     };
     trajectory.states.iter().map(moment).collect()
 }

@@ -1,7 +1,10 @@
 //! Search of the operating points of a state and their weights.
 
+use super::grid::SpaceGrid;
 use super::model::{TpwlModel, TrainedPoint};
-use super::weights::{Barycentre, NEAREST, NEAREST_EACH, Weight, Weighting, exponential, square_distance};
+use super::weights::{
+    Barycentre, NEAREST, NEAREST_EACH, NEAREST_OF_PLANES, Weight, Weighting, exponential, square_distance,
+};
 
 /// Work space of the search.
 pub struct Search {
@@ -21,7 +24,8 @@ impl Search {
     pub fn new(model: &TpwlModel, weighting: Weighting, shares: Vec<(usize, f64)>) -> Self {
         let sets = shares.iter().map(|&(set, _)| &model.sets[set]);
         let points = sets.clone().map(|set| set.points.len()).max().unwrap_or(0);
-        let near = sets.map(|set| set.trajectories.len() * NEAREST_EACH).max().unwrap_or(0).max(NEAREST);
+        let near =
+            sets.map(|set| set.trajectories.len() * NEAREST_EACH).max().unwrap_or(0).max(of_one_trajectory(model));
         Self {
             weighting,
             shifts: carried(model, weighting, &shares),
@@ -61,7 +65,7 @@ impl Search {
                 Weighting::DualTaylor => {
                     self.near.clear();
                     if set.trajectories.len() == 1 {
-                        nearest(&mut self.distances, NEAREST, &mut self.near);
+                        nearest(&mut self.distances, of_one_trajectory(model), &mut self.near);
                     } else {
                         // The points of a trajectory are adjacent in the list.
                         let same =
@@ -75,6 +79,14 @@ impl Search {
             }
             out.extend(self.near.iter().map(|w| Weight { weight: share * w.weight, ..*w }));
         }
+    }
+}
+
+/// Returns the number of nearest points of a set with one trajectory.
+fn of_one_trajectory(model: &TpwlModel) -> usize {
+    match model.space.grid {
+        SpaceGrid::Line(_) => NEAREST,
+        SpaceGrid::Plane(_) => NEAREST_OF_PLANES,
     }
 }
 

@@ -3,7 +3,6 @@
 use super::linearisation::{Fields, Linearisation, SystemFunctions};
 use super::space::{ReducedSpace, input_vector};
 use super::weights::square_distance;
-use crate::solver::discrete::reynolds::PENALTY;
 use crate::solver::full::Problem;
 use crate::solver::full::transient::{BackwardDifference, Input};
 use faer::linalg::solvers::Solve;
@@ -114,7 +113,7 @@ impl<'a> Selector<'a> {
 impl TrainedMoment {
     /// Returns the system functions, for a reference load that may differ from the moment's own.
     pub fn functions(&self, space: &ReducedSpace, problem: &Problem) -> SystemFunctions {
-        SystemFunctions::at(space, problem, self.fields(&self.film(space)), PENALTY)
+        SystemFunctions::at(space, problem, self.fields(&self.film(space)), space.penalty)
     }
 
     fn linearised(&self, space: &ReducedSpace, problem: &Problem) -> Linearisation {

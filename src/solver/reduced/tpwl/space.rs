@@ -3,6 +3,7 @@
 use super::grid::SpaceGrid;
 use super::linearisation::PENALTY_SLOPE;
 use crate::solver::discrete::grid::{FIRST_UNKNOWN, LineGrid, add_gap};
+use crate::solver::discrete::reynolds::PENALTY;
 use crate::solver::full::transient::{Input, State};
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::{PodBasis, dense, matrix_values};
@@ -36,13 +37,16 @@ pub struct ReducedSpace {
     /// `row_sizes::row_weights`; for a circular contact the adjoints of the modes.
     #[serde(with = "matrix_values")]
     pub test: Mat<f64>,
+    /// Penalty factor γ̄ of the trained states.
+    pub penalty: f64,
     /// Slope of the penalty in the cavitated region.
     pub penalty_slope: f64,
 }
 
 impl ReducedSpace {
-    /// Creates the space of a basis with its test functions.
-    pub fn new(grid: SpaceGrid, basis: &PodBasis, test: Mat<f64>, penalty_slope: f64) -> Self {
+    /// Creates the space of a basis with its test functions, for states with a penalty factor, and the slope of the
+    /// penalty in the linearised systems.
+    pub fn new(grid: SpaceGrid, basis: &PodBasis, test: Mat<f64>, [penalty, penalty_slope]: [f64; 2]) -> Self {
         let modes = basis.modes.ncols().min(test.ncols());
         let pressure = basis.modes.get(.., ..modes).to_owned();
         let mut deformation = Mat::zeros(grid.len(), modes);
@@ -54,7 +58,7 @@ impl ReducedSpace {
         }
         let load = |k: usize| grid.weights().iter().enumerate().map(|(i, w)| w * pressure[(i, k)]).sum();
         let load = (0..modes).map(load).collect();
-        Self { grid, pressure, deformation, load, test, penalty_slope }
+        Self { grid, pressure, deformation, load, test, penalty, penalty_slope }
     }
 
     /// Creates the space of a line contact from the first `modes` modes of a basis, with one weight per row of the full
@@ -63,7 +67,7 @@ impl ReducedSpace {
         let modes = modes.clamp(1, basis.modes.ncols());
         let test =
             Mat::from_fn(row_weights.len(), modes, |row, k| row_weights[row] * basis.modes[(row + FIRST_UNKNOWN, k)]);
-        Self::new(SpaceGrid::Line(grid), basis, test, PENALTY_SLOPE)
+        Self::new(SpaceGrid::Line(grid), basis, test, [PENALTY, PENALTY_SLOPE])
     }
 
     /// Number of modes.

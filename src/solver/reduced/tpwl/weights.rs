@@ -28,6 +28,9 @@ impl Weighting {
 
 /// Number of nearest points for a set with one trajectory.
 pub const NEAREST: usize = 5;
+/// The same for a circular contact. Loads and speeds vary along its trajectory, so that the points of neighbouring times
+/// are not enough to enclose a state.
+pub const NEAREST_OF_PLANES: usize = 10;
 /// Number of nearest points per trajectory for a set with several.
 pub const NEAREST_EACH: usize = 2;
 /// Weights below this count as zero, section 4.2.

@@ -15,8 +15,9 @@ use crate::app::tabs::transient::{TransientCommand, badge, methods, shared};
 use crate::app::tabs::{About, Offer, View};
 use crate::app::theme::Palette;
 use crate::engine::job::Standing;
-use crate::scene::LinearisedTransient;
+use crate::scene::{LinearisedTransient, ReducedTransient};
 use crate::solver::full::transient::Quantity;
+use crate::solver::physics::contact::ContactKind;
 
 use egui::{Grid, Ui};
 
@@ -34,10 +35,11 @@ pub struct Tpwl {
 
 impl Tpwl {
     fn form_ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+        let kind = context.document.point.kind;
         self.last = shared::edit(ui, ("tpwl", self.last), context, commands, |ui, form, study| {
-            methods::linearised_ui(ui, form, study);
+            methods::linearised_ui(ui, form, study, kind);
             form.message(ui, "Methods");
-            methods::trainings_ui(ui, form, study);
+            methods::trainings_ui(ui, form, study, kind);
         });
         ui.weak("Inputs, duration and steps are those of the Transient tab.");
     }
@@ -232,10 +234,21 @@ fn nothing_yet(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     if study.linearised.is_none() {
         ui.weak("This transient contact has no linearised model yet.");
         if ui.button("Linearise this run").on_hover_text("Adds it with its usual settings").clicked() {
-            study.linearised = Some(LinearisedTransient::default());
+            let kind = context.document.point.kind;
+            study.linearised = Some(LinearisedTransient::usual(kind));
+            if kind == ContactKind::Point {
+                study.reduced.get_or_insert_with(ReducedTransient::embedded);
+            }
             commands.edit(Edit::Transient(Box::new(study)), dials::NAME);
         }
     } else if !shared::is_coming(context) {
-        ui.weak("Press Run transient. The full system runs first, and its trajectory is then linearised and followed.");
+        ui.weak(match context.document.point.kind {
+            ContactKind::Line => {
+                "Press Run transient. The full system runs first, and its trajectory is then linearised and followed."
+            }
+            ContactKind::Point => {
+                "Press Run transient. The full system runs first; then a sweep of loads and speeds is linearised."
+            }
+        });
     }
 }

@@ -1,0 +1,167 @@
+//! Validation page of the manual, generated from the results page of all scenes.
+
+use super::results::PAGE;
+
+/// Folders of scenes with what they validate.
+const FOLDERS: [(&str, &str); 17] = [
+    ("line", "Line contacts: tables of the dissertation and independent solutions"),
+    ("point", "Circular contacts: tables of the dissertation, independent solutions and measured films"),
+    ("ellipse", "Elliptical contacts, with their limits"),
+    ("rupture", "Models of cavitation"),
+    ("shear", "Shear-thinning lubricants and friction"),
+    ("heat", "Heat in film and bodies"),
+    ("rough", "Rough surfaces"),
+    ("time", "Transient contacts"),
+    ("reach", "Slow, soft, light and reversing contacts"),
+    ("machines", "Bearings, gears and cams"),
+    ("fit", "Fits to measured data"),
+    ("load_cases", "Tables of load cases"),
+    ("convergence", "Convergence of the full solver over whole ranges"),
+    ("accuracy", "Sources of error and film formulas"),
+    ("reduced", "Reduced models against full solutions"),
+    ("plans", "Selection of training contacts: Tables 3.2 and 3.3"),
+    ("training", "Training of reduced models"),
+];
+
+/// Scene of the results page.
+struct Scene<'a> {
+    title: &'a str,
+    place: &'a str,
+    source: &'a str,
+    /// Day of the run; empty if it has not run.
+    day: &'a str,
+    /// Expectation and value, and whether it holds.
+    checks: Vec<(&'a str, &'a str, bool)>,
+}
+
+impl<'a> Scene<'a> {
+    /// Returns the scenes of a results page, in its order.
+    fn all(results: &'a str) -> Vec<Self> {
+        let mut scenes: Vec<Self> = Vec::new();
+        for line in results.lines() {
+            let Some(inside) = line.strip_prefix("| ").and_then(|line| line.strip_suffix(" |")) else { continue };
+            let cells: Vec<&str> = inside.split(" | ").collect();
+            let &[name, source, wanted, value, verdict, run] = &cells[..] else { continue };
+            if let Some((title, place)) = name.strip_prefix('[').and_then(|name| name.rsplit_once("](")) {
+                let (place, day) = (place.trim_end_matches(')'), run.split(' ').next().unwrap_or_default());
+                scenes.push(Self { title, place, source, day, checks: Vec::new() });
+            } else if !name.trim().is_empty() {
+                continue;
+            }
+            if let Some(scene) = scenes.last_mut().filter(|scene| !scene.day.is_empty()) {
+                scene.checks.push((wanted, value, verdict == "ok"));
+            }
+        }
+        scenes
+    }
+
+    fn folder(&self) -> &'a str {
+        self.place.rsplit_once('/').map_or("", |(folder, _)| folder)
+    }
+
+    fn ran(&self) -> bool {
+        !self.day.is_empty()
+    }
+
+    fn held(&self) -> usize {
+        self.checks.iter().filter(|(_, _, holds)| *holds).count()
+    }
+
+    /// Returns the scene as an entry of a list.
+    fn entry(&self) -> String {
+        let Self { title, place, source, day, checks } = self;
+        let verdict = match (self.ran(), self.held()) {
+            (false, _) => "has not run as it is now".to_owned(),
+            (true, held) if held == checks.len() => format!("{held} of {held} hold, {day}"),
+            (true, held) => format!("**{held} of {}** hold, {day}", checks.len()),
+        };
+        let source = if source.is_empty() { String::new() } else { format!(" {}.", source.trim_end_matches('.')) };
+        format!("- **{title}**: {verdict}.{source} `{place}`\n")
+    }
+}
+
+/// Returns the page: a table of all folders, expectations that do not hold, and the scenes of each folder.
+pub fn page(results: &str) -> String {
+    let scenes = Scene::all(results);
+    let held = |own: &[&Scene<'_>]| own.iter().map(|scene| scene.held()).sum::<usize>();
+    let checks = |own: &[&Scene<'_>]| own.iter().map(|scene| scene.checks.len()).sum::<usize>();
+    let all: Vec<&Scene<'_>> = scenes.iter().collect();
+    let days = || scenes.iter().filter(|scene| scene.ran()).map(|scene| scene.day);
+    let (first, last) = (days().min().unwrap_or("?"), days().max().unwrap_or("?"));
+    let mut text = format!(
+        "# Validation\n\nResults of the scenes of the program against published values, independent solutions, limits and \
+         requirements: {} of {} expectations hold. They ran from {first} to {last}. *Examples* opens each scene; \
+         `scenes/{PAGE}` has every expectation with its value. This page is generated from it.\n\n\
+         | folder | scenes | not run | expectations | hold |\n|---|---|---|---|---|\n",
+        held(&all),
+        checks(&all)
+    );
+    let folders: Vec<(&str, &str, Vec<&Scene<'_>>)> = FOLDERS
+        .iter()
+        .map(|(folder, what)| (*folder, *what, all.iter().copied().filter(|scene| scene.folder() == *folder).collect()))
+        .filter(|(_, _, own): &(_, _, Vec<_>)| !own.is_empty())
+        .collect();
+    for (folder, _, own) in &folders {
+        let missing = own.iter().filter(|scene| !scene.ran()).count();
+        text += &format!("| `{folder}` | {} | {missing} | {} | {} |\n", own.len(), checks(own), held(own));
+    }
+    text += "\n## What does not hold\n\n";
+    let mut short = false;
+    for scene in &scenes {
+        for (wanted, value, _) in scene.checks.iter().filter(|(_, _, holds)| !holds) {
+            short = true;
+            text += &format!("- **{}**: {wanted}. Value: {value}. `{}`\n", scene.title, scene.place);
+        }
+    }
+    if !short {
+        text += "All expectations hold.\n";
+    }
+    for (folder, what, own) in &folders {
+        text += &format!("\n## {what}\n\nFolder `{folder}`.\n\n");
+        own.iter().for_each(|scene| text += &scene.entry());
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const RESULTS: &str = include_str!("../../scenes/RESULTS.md");
+
+    #[test]
+    fn every_scene_of_the_results_has_an_entry() {
+        let (scenes, page) = (Scene::all(RESULTS), page(RESULTS));
+        assert!(scenes.len() > 150 && scenes.len() == RESULTS.lines().filter(|line| line.starts_with("| [")).count());
+        for scene in &scenes {
+            assert!(page.contains(&scene.entry()), "{} is in no folder of the page", scene.place);
+        }
+        let said = RESULTS.lines().find(|line| line.contains(" expectations: ")).unwrap();
+        let checks: usize = scenes.iter().map(|scene| scene.checks.len()).sum();
+        let held: usize = scenes.iter().map(Scene::held).sum();
+        assert!(
+            said.contains(&format!(" with {checks} expectations: ")) && page.contains(&format!("{held} of {checks}"))
+        );
+        let missing = scenes.iter().filter(|scene| !scene.ran()).count();
+        assert!(
+            said.contains("have not run") == (missing > 1) && (missing == 0 || said.contains(&missing.to_string()))
+        );
+    }
+
+    #[test]
+    fn what_does_not_hold_is_named() {
+        let results = "| [A \\| b](line/a.ron) | Moes. | `H_c`: 1 | 2.000 | **short** | 2026-11-29 <!-- 1 --> |\n\
+                       |  |  | `P_c`: 1 | 1.000 | ok |  |\n\
+                       | [B](point/b.ron) |  | it runs | not yet |  |  |\n";
+        let page = page(results);
+        for said in [
+            "1 of 2 expectations hold",
+            "- **A \\| b**: `H_c`: 1. Value: 2.000. `line/a.ron`",
+            "- **A \\| b**: **1 of 2** hold, 2026-11-29. Moes. `line/a.ron`",
+            "- **B**: has not run as it is now. `point/b.ron`",
+            "| `point` | 1 | 1 | 0 | 0 |",
+        ] {
+            assert!(page.contains(said), "{said}: {page}");
+        }
+    }
+}
