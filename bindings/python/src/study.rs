@@ -183,7 +183,7 @@ fn by_model<'py>(
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let (trajectory, warnings) = long(py, progress, |watch| {
-        let model = Workbench::on(&crate::STORE, PathBuf::new()).trajectory_model(source, watch)?;
+        let model = Workbench::on(&crate::STORE, PathBuf::new()).trajectory_model(source, asked.point.kind, watch)?;
         let asked = Transient { frame: model.frame, ..asked };
         let observer = MarchProgress { observer: watch, stage: "reduced model".to_owned(), duration: asked.duration };
         let mut reduced = ReducedMarch::new(&model, &asked).map_err(EngineError::from)?;

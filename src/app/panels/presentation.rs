@@ -13,6 +13,9 @@ use egui::{Align, Button, Frame, Label, Layout, Margin, PopupCloseBehavior, Rich
 /// Text size of the regime.
 const LARGE: f32 = 20.0;
 
+/// Minimum width for the hint.
+const HINT: f32 = 120.0;
+
 /// Draws the bar.
 pub fn ui(
     ui: &mut Ui,
@@ -58,7 +61,9 @@ pub fn ui(
                 {
                     commands.push(Command::LockAxes);
                 }
-                ui.add(Label::new(RichText::new("Drag a slider; Esc ends").weak()).truncate());
+                if ui.available_width() > HINT {
+                    ui.add(Label::new(RichText::new("Drag a slider; Esc ends").weak()).truncate());
+                }
             });
         });
         sliders::in_use(ui, context, chosen, entries, commands);

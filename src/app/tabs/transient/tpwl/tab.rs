@@ -65,7 +65,9 @@ impl Tpwl {
         let refused = context.entries.message(dials::NAME).filter(|_| !self.form);
         let failed = context.transient.number.work.message.as_deref();
         shared::status(ui, context, refused.into_iter().chain(failed));
-        let Some(linearised) = &context.transient.linearised else {
+        // That of another kind of contact is not shown.
+        let of_kind = |linearised: &&Linearised| linearised.model.kind() == Some(context.document.point.kind);
+        let Some(linearised) = context.transient.linearised.as_ref().filter(of_kind) else {
             nothing_yet(ui, context, commands);
             return;
         };
