@@ -86,6 +86,7 @@ fn line_contact_shows_film_over_time_and_offers_a_ball() {
     click(&mut harness, "Transient");
     assert!(shows(&harness, "Run transient") && !shows(&harness, "Film over space and time"));
     click(&mut harness, "TPWL");
+    wait(&mut harness, "the ball in time", |app| app.in_time() == (true, 1, 1));
     assert!(shows(&harness, "Press Run transient"), "the roller's linearised model is not that of a ball");
     click(&mut harness, "Ellipse");
     click(&mut harness, "Show a line contact");

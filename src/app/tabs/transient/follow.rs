@@ -145,6 +145,11 @@ impl TransientRuns {
         if self.follows(&wanted) || self.runs_by_hand() {
             return;
         }
+        // Runs of another shape say nothing about this contact.
+        let shape = |setup: &Setup| (setup.point.kind, setup.point.is_elliptic());
+        if self.setup.as_ref().is_some_and(|setup| shape(setup) != shape(&wanted)) {
+            self.forget();
+        }
         let wanted = Arc::new(wanted);
         let cancelled = |run: &Run| matches!(run.trajectory.ended, Ended::Cancelled { .. });
         let whole = |run: &Run| run.ended && !run.replayed && !cancelled(run);
