@@ -9,7 +9,7 @@ use crate::scene::experiment::Experiment;
 use crate::scene::grid::Grid;
 use crate::scene::method::ModelSource;
 use crate::scene::written::is_default;
-use crate::solver::full::transient::{Frame, Inputs, Scheme, Signal, TimeStep, Transient};
+use crate::solver::full::transient::{Frame, Inputs, Scheme, Signal, TimeStep, Transient, Unsupported};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::reduced::tpwl::{Selection, Weighting};
 use crate::solver::training::{LocalBases, ResponseTraining, TrajectoryTraining};
@@ -233,10 +233,7 @@ impl ReducedTransient {
     fn check(&self, experiment: &Experiment) -> Checked {
         let (grid, kind) = (&experiment.grid, experiment.contact);
         if experiment.point().is_ok_and(|point| point.is_elliptic()) {
-            return Err(refuse(
-                "study.reduced",
-                "must be left out for unequal radii: models cover line and circular contacts",
-            ));
+            return Err(coverage::refused(Unsupported::PointContact));
         }
         if self.model.is_some() {
             if *self != (Self { model: self.model.clone(), ..Self::default() }) {
