@@ -126,13 +126,16 @@ impl Entry {
         self.day >= day
     }
 
-    /// Reads path, hash and day from the first line of an entry; `None` if the scene has not run, or for any other
-    /// line.
-    fn begin(cells: &[&str]) -> Option<Self> {
-        let place = cells.first()?.rsplit_once("](")?.1.strip_suffix(')')?.to_owned();
-        let (day, hash) = cells.last()?.strip_suffix(" -->")?.split_once(" <!-- ")?;
+    /// Returns the entry of a scene on a page; `None` if it has not run.
+    fn of(written: &Written<'_>) -> Option<Self> {
+        let (day, hash) = written.run.strip_suffix(" -->")?.split_once(" <!-- ")?;
         let (day, hash) = (day_of(day)?, u64::from_str_radix(hash, 16).ok()?);
-        Some(Self { place, hash, day, lines: Vec::new() })
+        let line = |&(wanted, value, holds): &(&str, &str, bool)| Line {
+            wanted: wanted.to_owned(),
+            value: value.to_owned(),
+            holds,
+        };
+        Some(Self { place: written.place.to_owned(), hash, day, lines: written.lines.iter().map(line).collect() })
     }
 
     /// Returns the lines of the page. Title, source and the origin of each expected value are taken from the current
@@ -176,29 +179,41 @@ pub fn day_of(text: &str) -> Option<Date> {
     Date::parse(text, &Iso8601::DATE).ok()
 }
 
-/// Reads the entries of a page, by the paths of the scenes.
-pub fn entries_of(page: &str) -> BTreeMap<String, Entry> {
-    let mut entries: BTreeMap<String, Entry> = BTreeMap::new();
-    let mut at = None;
+/// Rows of one scene on a page, as written there.
+pub(super) struct Written<'a> {
+    pub title: &'a str,
+    pub place: &'a str,
+    pub source: &'a str,
+    /// Day of the run and hash; empty if the scene has not run.
+    pub run: &'a str,
+    /// Expectation, value, and whether it holds.
+    pub lines: Vec<(&'a str, &'a str, bool)>,
+}
+
+/// Reads the scenes of a page, in its order.
+pub(super) fn written(page: &str) -> Vec<Written<'_>> {
+    let mut scenes: Vec<Written<'_>> = Vec::new();
     for line in page.lines() {
         let inside = line.strip_prefix("| ").and_then(|line| line.strip_suffix(" |")).unwrap_or_default();
-        let cells: Vec<_> = inside.split(" | ").collect();
-        if line.starts_with("| [") {
-            at = Entry::begin(&cells).map(|entry| {
-                let place = entry.place.clone();
-                entries.insert(place.clone(), entry);
-                place
-            });
-        } else if !line.starts_with("|  |") {
-            at = None;
+        let cells: Vec<&str> = inside.split(" | ").collect();
+        let &[name, source, wanted, value, verdict, run] = &cells[..] else { continue };
+        let named = name.strip_prefix('[').and_then(|name| name.strip_suffix(')')?.rsplit_once("]("));
+        match named {
+            Some((title, place)) => scenes.push(Written { title, place, source, run, lines: Vec::new() }),
+            None if name.trim().is_empty() => {}
+            // The head of a table.
+            None => continue,
         }
-        if let Some(entry) = at.as_ref().and_then(|place| entries.get_mut(place))
-            && let [_, _, wanted, value, verdict, _] = cells[..]
-        {
-            entry.lines.push(Line { wanted: wanted.to_owned(), value: value.to_owned(), holds: verdict != SHORT });
+        if let Some(scene) = scenes.last_mut() {
+            scene.lines.push((wanted, value, verdict != SHORT));
         }
     }
-    entries
+    scenes
+}
+
+/// Reads the entries of a page, by the paths of the scenes. Scenes that have not run have none.
+pub fn entries_of(page: &str) -> BTreeMap<String, Entry> {
+    written(page).iter().filter_map(Entry::of).map(|entry| (entry.place.clone(), entry)).collect()
 }
 
 /// Returns the hash of a scene's [`meaning`].

@@ -1,6 +1,6 @@
 //! Validation page of the manual, generated from the results page of all scenes.
 
-use super::results::PAGE;
+use super::results::{PAGE, Written, written};
 
 /// Folders of scenes with what they validate.
 const FOLDERS: [(&str, &str); 17] = [
@@ -30,29 +30,18 @@ struct Scene<'a> {
     source: &'a str,
     /// Day of the run; empty if it has not run.
     day: &'a str,
-    /// Expectation and value, and whether it holds.
+    /// Expectation and value, and whether it holds; empty if the scene has not run.
     checks: Vec<(&'a str, &'a str, bool)>,
 }
 
 impl<'a> Scene<'a> {
     /// Returns the scenes of a results page, in its order.
     fn all(results: &'a str) -> Vec<Self> {
-        let mut scenes: Vec<Self> = Vec::new();
-        for line in results.lines() {
-            let Some(inside) = line.strip_prefix("| ").and_then(|line| line.strip_suffix(" |")) else { continue };
-            let cells: Vec<&str> = inside.split(" | ").collect();
-            let &[name, source, wanted, value, verdict, run] = &cells[..] else { continue };
-            if let Some((title, place)) = name.strip_prefix('[').and_then(|name| name.rsplit_once("](")) {
-                let (place, day) = (place.trim_end_matches(')'), run.split(' ').next().unwrap_or_default());
-                scenes.push(Self { title, place, source, day, checks: Vec::new() });
-            } else if !name.trim().is_empty() {
-                continue;
-            }
-            if let Some(scene) = scenes.last_mut().filter(|scene| !scene.day.is_empty()) {
-                scene.checks.push((wanted, value, verdict == "ok"));
-            }
-        }
-        scenes
+        let scene = |Written { title, place, source, run, lines }: Written<'a>| {
+            let day = run.split(' ').next().unwrap_or_default();
+            Self { title, place, source, day, checks: if day.is_empty() { Vec::new() } else { lines } }
+        };
+        written(results).into_iter().map(scene).collect()
     }
 
     fn folder(&self) -> &'a str {

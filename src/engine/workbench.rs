@@ -143,10 +143,9 @@ impl Bench for Workbench {
         let kind = request.point.kind;
         let fitted = request.lubricant.grid_contact(&request.point);
         let grid = request.grid.for_contact(&fitted).map_err(SolveError::from)?;
-        let spec = match kind {
-            _ if grid == Grid::Graded => Some(GridSpec::explorer_for(&fitted).map_err(SolveError::from)?),
-            ContactKind::Line => grid.spec(),
-            ContactKind::Point => grid.point_spec().map(GridSpec::Plane),
+        let spec = match grid {
+            Grid::Graded => Some(GridSpec::explorer_for(&fitted).map_err(SolveError::from)?),
+            _ => grid.spec_for(kind),
         };
         match spec {
             Some(spec) => Ok(self.store.grid(spec).map_err(SolveError::from)?),

@@ -35,6 +35,14 @@ fn open(name: &str, text: &str) -> (Window, Scratch) {
     (harness, folder)
 }
 
+/// Opens the window without a scene.
+fn fresh() -> Window {
+    let explorer = Explorer::new(None).without_system_dialogs();
+    let mut harness = crate::driver::window(explorer, [1280.0, 800.0]);
+    wait(&mut harness, "the first picture", |app| app.central_film().is_some() && !app.busy());
+    harness
+}
+
 #[test]
 fn frames_are_run_compared_scrubbed_played_and_exported() {
     let (mut harness, folder) = open("frames", &scene(BREATHING, 2.0, "Fixed, ArbitraryLagrangianEulerian"));
@@ -162,9 +170,7 @@ fn the_set_up_is_edited_undone_refused_and_saved_with_the_scene() {
 
 #[test]
 fn new_transient_runs_replays_and_is_checked() {
-    let explorer = Explorer::new(None).without_system_dialogs();
-    let mut harness = crate::driver::window(explorer, [1280.0, 800.0]);
-    wait(&mut harness, "the first picture", |app| app.central_film().is_some() && !app.busy());
+    let mut harness = fresh();
     click(&mut harness, "Transient");
     assert!(harness.state().marching(), "nobody has to press anything");
     rest_in_time(&mut harness);
@@ -213,9 +219,7 @@ fn new_transient_runs_replays_and_is_checked() {
 
 #[test]
 fn a_ball_is_replayed_by_the_built_in_model_and_checked() {
-    let explorer = Explorer::new(None).without_system_dialogs();
-    let mut harness = crate::driver::window(explorer, [1280.0, 800.0]);
-    wait(&mut harness, "the first picture", |app| app.central_film().is_some() && !app.busy());
+    let mut harness = fresh();
     click(&mut harness, "Ball");
     click(&mut harness, "Transient");
     let live = |app: &Explorer| app.in_time() == (true, 1, 1);
@@ -256,9 +260,7 @@ fn a_ball_is_replayed_by_the_built_in_model_and_checked() {
 
 #[test]
 fn a_frame_of_a_dragged_amplitude_is_cheap() {
-    let explorer = Explorer::new(None).without_system_dialogs();
-    let mut harness = crate::driver::window(explorer, [1280.0, 800.0]);
-    wait(&mut harness, "the first picture", |app| app.central_film().is_some() && !app.busy());
+    let mut harness = fresh();
     click(&mut harness, "Transient");
     rest_in_time(&mut harness);
     // Everything is replayed in other threads; this one draws their results.

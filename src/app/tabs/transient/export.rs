@@ -6,7 +6,6 @@ use crate::app::tabs::transient::{Run, Setup, method};
 use crate::app::{export, numbers};
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::transient::{Inputs, Signal};
-use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::engineering::UnitSystem;
 
 /// Block of columns: its name and its rows.
@@ -116,11 +115,7 @@ pub fn inputs(setup: &Setup) -> String {
 /// Returns the set-up as lines above a table.
 pub fn describe(setup: &Setup) -> Vec<String> {
     let Inputs { radius, speed, load } = &setup.study.inputs;
-    let grid = match setup.grid.point_spec().filter(|_| setup.point.kind == ContactKind::Point).map(GridSpec::Plane) {
-        Some(spec) => Some(spec),
-        None => setup.grid.spec(),
-    };
-    let grid = match grid {
+    let grid = match setup.grid.spec_for(setup.point.kind) {
         Some(GridSpec::Uniform { dx, domain }) => format!("uniform grid of {dx} over {domain:?}"),
         Some(GridSpec::Graded { nodes, domain, .. }) => format!("{nodes} graded nodes over {domain:?}"),
         Some(GridSpec::Plane(spec)) => format!("spacings of {} and {} over {:?}", spec.dx, spec.dy, spec.domain),

@@ -6,8 +6,8 @@ use super::recorded::Recorded;
 use super::runs::{TransientRuns, insert};
 use crate::app::tabs::transient::{Run, Setup};
 use crate::app::wake::wake;
+use crate::engine::Store;
 use crate::engine::job::Background;
-use crate::engine::{Store, in_time};
 use crate::scene::study::transient::{Kind, MarchedBy, Model, Row};
 use crate::scene::{Drive, ReducedTransient, Scene, StudyRow, TransientStudy};
 use crate::solver::full::transient::{Ended, Frame, Inputs};
@@ -128,11 +128,14 @@ impl TransientRuns {
 
     /// Returns the training inputs of the models on the screen.
     pub fn trained_by(&self) -> Option<Vec<Drive>> {
-        let (setup, _) = self.following.kept.as_ref()?;
+        let (setup, models) = self.following.kept.as_ref()?;
         let study = &setup.study;
         if setup.point.kind == ContactKind::Point {
-            let training =
-                study.responses().or_else(|| Some(ResponseTraining::of_model(&*in_time(setup.point.kind).ok()?)))?;
+            let of_model = |model: &Model| match &model.kind {
+                Kind::Reduced(reduced) => Some(ResponseTraining::of_model(reduced)),
+                Kind::Linearised { .. } => None,
+            };
+            let training = study.responses().or_else(|| models.iter().find_map(of_model))?;
             let (inputs, duration) = training.sweep();
             return Some(vec![Drive { name: String::new(), inputs, duration }]);
         }

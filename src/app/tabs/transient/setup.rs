@@ -4,7 +4,6 @@ use crate::app::document::{Document, Key};
 use crate::app::in_use::question;
 use crate::engine::in_time;
 use crate::scene::{Grid, LinearisedTransient, ModelSource, ReducedTransient, Scene, Study, TransientStudy};
-use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::Problem;
 use crate::solver::full::transient::TimeStep;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
@@ -34,12 +33,7 @@ fn unserved(document: &Document, study: &TransientStudy) -> Option<String> {
     if study.frames != [model.frame] {
         return Some("it supports the fixed frame only".to_owned());
     }
-    let grid = document.transient_grid();
-    let spec = match document.point.kind {
-        ContactKind::Line => grid.spec(),
-        ContactKind::Point => grid.point_spec().map(GridSpec::Plane),
-    };
-    if spec != Some(model.window.grid.spec()) {
+    if document.transient_grid().spec_for(document.point.kind) != Some(model.window.grid.spec()) {
         return Some("it has another grid".to_owned());
     }
     let problem = Problem::new(&document.point, document.lubricant).ok()?;

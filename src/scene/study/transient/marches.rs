@@ -71,16 +71,18 @@ impl TransientStudy {
 
     /// Returns true if models are trained from the march along the study's own inputs.
     pub fn trains_on_itself(&self, kind: ContactKind) -> bool {
-        self.trains(kind)
-            && self.trainings.is_empty()
-            && self.training_loads.is_empty()
-            && self.training_contacts.is_empty()
+        self.trains(kind) && !self.has_trainings()
     }
 
-    /// Returns the marches for training the models of a frame, contact by contact. Empty if they are trained from the
-    /// study's own march, `own`.
+    /// Returns true if the study has other inputs or contacts for training.
+    fn has_trainings(&self) -> bool {
+        !(self.trainings.is_empty() && self.training_loads.is_empty() && self.training_contacts.is_empty())
+    }
+
+    /// Returns the marches for training the models of a frame, contact by contact. Empty without other inputs or
+    /// contacts than those of the study's own march, `own`.
     pub fn training_marches(&self, own: &Transient) -> Vec<Transient> {
-        if self.trains_on_itself(own.point.kind) {
+        if !self.has_trainings() {
             return Vec::new();
         }
         let loaded = self.training_loads.iter().map(|&load| OperatingPoint { load, ..own.point });

@@ -7,7 +7,7 @@ use super::weights::square_distance;
 use crate::solver::full::transient::{Frame, State, Trajectory, TransientError};
 use crate::solver::full::{Mesh, Problem, SolveError};
 use crate::solver::limits::Number;
-use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::PodBasis;
 use crate::solver::reduced::row_sizes::row_weights;
@@ -143,11 +143,6 @@ impl TpwlModel {
         model.training.selection = model.selection_of(training.selection, points);
         model.choose_points()?;
         Ok(model)
-    }
-
-    /// Returns the kind of contact; `None` without training.
-    pub fn kind(&self) -> Option<ContactKind> {
-        self.sets.first().map(|set| set.problem.point.kind)
     }
 
     /// Returns the model of the same trajectories and space with other operating points.

@@ -65,9 +65,7 @@ impl Tpwl {
         let refused = context.entries.message(dials::NAME).filter(|_| !self.form);
         let failed = context.transient.number.work.message.as_deref();
         shared::status(ui, context, refused.into_iter().chain(failed));
-        // That of another kind of contact is not shown.
-        let of_kind = |linearised: &&Linearised| linearised.model.kind() == Some(context.document.point.kind);
-        let Some(linearised) = context.transient.linearised.as_ref().filter(of_kind) else {
+        let Some(linearised) = &context.transient.linearised else {
             nothing_yet(ui, context, commands);
             return;
         };
