@@ -39,9 +39,9 @@ pub const POINT_BASELINE: &str = "point/full/cold";
 pub const TRANSIENT_BASELINE: &str = "line/transient/full-step";
 
 /// Time budget of the dense baseline. At least three runs are made.
-const BASELINE_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_secs(4)];
+const BASELINE_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_secs(2)];
 /// Time budget of each other row. At least three points are solved.
-const ROW_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_millis(1500)];
+const ROW_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_millis(500)];
 /// Numbers of points of the full rows, the reduced row and the baseline; normal and quick.
 const FULL_POINTS: [usize; 2] = [400, 60];
 const REDUCED_POINTS: [usize; 2] = [10_000, 1_000];
@@ -53,7 +53,7 @@ const REDUCED_SHEAR_POINTS: [usize; 2] = [1000, 150];
 const CURVES: [usize; 2] = [50, 8];
 /// Number of point contacts, and time after which no further solve is started.
 const POINT_POINTS: [usize; 2] = [50, 4];
-const POINT_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_millis(700)];
+const POINT_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_millis(400)];
 /// Training of the trajectory-piecewise-linear model of the same march.
 const TPWL_TRAINING: TpwlTraining = TpwlTraining { modes: 100, selection: Selection::Step { tolerance: 1e-3 } };
 /// Local bases for the march: number of bases, and modes per basis.

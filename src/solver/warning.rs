@@ -27,6 +27,9 @@ const NOTABLE_STEP_ERROR: f64 = 0.03;
 /// Relative discretisation error above which the estimate is likely to be too small.
 const SATURATED: f64 = 0.1;
 
+/// Share of the rms height of a measured surface that a grid should resolve.
+const RESOLVED_HEIGHT: f64 = 0.95;
+
 /// Film ratio h_c/σ below which the fitted flow factors leave their range and their continuation decides.
 const SMALLEST_FILM_RATIO: f64 = 0.5;
 
@@ -129,6 +132,18 @@ pub enum Warning {
     AsperitiesAtEnds {
         /// Largest asperity pressure there, in units of the Hertzian pressure.
         pressure: f64,
+    },
+    /// The grid does not resolve short waves of a measured surface.
+    #[error(
+        "the spacing of {spacing:.1e} a resolves {:.0} % of the rms height of the surface: shorter waves are averaged; take \
+         a finer grid to include them",
+        100.0 * share
+    )]
+    SurfaceUnresolved {
+        /// Resolved share of the rms height.
+        share: f64,
+        /// Widest spacing in the contact, in units of a.
+        spacing: f64,
     },
     /// Heat flows upstream within a slowly moving body.
     #[error(
@@ -278,6 +293,12 @@ impl Warning {
         (film_ratio < SMALLEST_FILM_RATIO).then_some(Self::SmallFilmRatio { film_ratio })
     }
 
+    /// Returns a warning if a grid with the given widest spacing resolves too small a share of the rms height of a
+    /// measured surface.
+    pub fn of_resolved_height(share: f64, spacing: f64) -> Option<Self> {
+        (share < RESOLVED_HEIGHT).then_some(Self::SurfaceUnresolved { share, spacing })
+    }
+
     /// Returns true for the two warnings about the discretisation error. Tables of many contacts summarise these in a
     /// separate sentence.
     pub fn is_of_grid(&self) -> bool {
@@ -365,13 +386,14 @@ fn discretisation(relative: f64, ends: Option<&NearEnds>, spacing: Option<&WideS
     format!("H_c is off by about {:.0} %{more}{colon}{}", 100.0 * relative, parts.join("; "))
 }
 
-/// Formats the sentence of a time-step error.
+/// Formats the sentence of an extrapolated load.
 fn extrapolated(load: f64, last: f64) -> String {
     let (side, law) = if load < last { ("below", "an open gap") } else { ("above", "a dry contact") };
     let [load, last] = [load, last].map(crate::solver::limits::digits);
     format!("the load {load} is {side} the trained {last}, from where it follows the power law of {law}")
 }
 
+/// Formats the sentence of a time-step error.
 fn time_step_error(relative: f64, tolerance: Option<f64>) -> String {
     let percent = 100.0 * relative;
     match tolerance {

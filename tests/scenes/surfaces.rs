@@ -91,6 +91,59 @@ fn a_profile_from_a_file_is_the_shape_that_it_samples() {
 }
 
 #[test]
+fn a_low_wave_at_rest_changes_the_film_as_the_linear_response_says() {
+    let at_rest = format!("srr: 2.0, {LINE}");
+    let wave = "Wave(height: 1e-10, wavelength: 8.953462156216784e-5, at: 3.0)";
+    let linear = value(&run(&at_rest, "Amplitude(wavelengths: [1.0])"), "exact.real_0");
+    let outcome = run(&at_rest, &format!("StationaryProfile(surface: {wave}, factors: [1.0, 2.0])"));
+    let change = |k: usize| value(&outcome, &format!("H_c_{k}")) - value(&outcome, "smooth.H_c");
+    // The nodes have the mean heights of their cells, which are lower by sin(πΔX)/(πΔX).
+    let a = 8.953_462_156_216_784e-5_f64;
+    let height = 1e-10 / (a * a / 0.003) * (0.02 * std::f64::consts::PI).sin() / (0.02 * std::f64::consts::PI);
+    let ratio = change(0) / (-height * linear);
+    assert!((ratio - 1.0).abs() < 2e-3, "{ratio}");
+    assert!((change(1) / change(0) - 2.0).abs() < 2e-3, "{}", change(1) / change(0));
+    let rq = value(&outcome, "Rq_m");
+    assert!((rq / 1e-10 * 2f64.sqrt() - 1.0).abs() < 1e-2, "{rq:e}");
+    assert!(value(&outcome, "resolved_share") > 0.99);
+    let of_factor_1 = |row: &&Vec<f64>| row[0] == 1.0;
+    assert!(outcome.tables[2].rows.iter().filter(of_factor_1).count() > 200);
+}
+
+#[test]
+fn a_measured_surface_at_rest_is_levelled_and_averaged_over_cells() {
+    let folder = tempfile::tempdir().unwrap();
+    let a = 8.953_462_156_216_784e-5;
+    let write = |name: &str, to: f64, height: &dyn Fn(f64) -> f64| {
+        let points = (0..=3000).map(|k| -3.0 + (to + 3.0) * f64::from(k) / 3000.0);
+        let lines: String = points.map(|x| format!("{},{}\n", x * a, height(x))).collect();
+        std::fs::write(folder.path().join(name), format!("x,height\n{lines}")).unwrap();
+    };
+    let wave = |x: f64| 1e-8 * (std::f64::consts::TAU * x / 0.5).cos();
+    write("level.csv", 3.0, &wave);
+    write("tilted.csv", 3.0, &|x| wave(x) + 1e-7 * x + 3e-7);
+    write("fine.csv", 3.0, &|x| wave(x) + 2e-8 * (std::f64::consts::TAU * x / 0.013).cos());
+    write("short.csv", 0.5, &wave);
+    let run = |name: &str| {
+        let scene = scene(&format!("srr: -2.0, {LINE}"), &format!("StationaryProfile(surface: Profile(\"{name}\"))"));
+        run_scene(&scene.unwrap(), &mut Workbench::new(folder.path()), &())
+    };
+    let [level, tilted, fine] = ["level.csv", "tilted.csv", "fine.csv"].map(|name| run(name).unwrap());
+    for name in ["H_c_0", "H_min_0", "P_max_0", "Rq_m", "resolved_share"] {
+        let (level, tilted) = (value(&level, name), value(&tilted, name));
+        assert!((level / tilted - 1.0).abs() < 1e-6, "{name}: {level} {tilted}");
+    }
+    assert!(value(&level, "P_max_0") > 1.01 * value(&level, "smooth.P_max"), "crests carry more");
+    // Three quarters of the roughness of the last profile are shorter than a cell.
+    let warnings = format!("{:?}", fine.found.warnings);
+    assert!(value(&fine, "resolved_share") < 0.6 && warnings.contains("SurfaceUnresolved"), "{warnings}");
+    let change = value(&fine, "H_c_0") / value(&level, "H_c_0");
+    assert!((change - 1.0).abs() < 0.01, "waves shorter than the cells average out: {change}");
+    let short = run("short.csv").unwrap_err().to_string();
+    assert!(short.contains("must cover the contact"), "{short}");
+}
+
+#[test]
 fn a_ball_follows_load_speed_and_approach() {
     let loaded = run(
         BALL,
@@ -142,6 +195,8 @@ fn invalid_surfaces_are_refused_with_their_field() {
         (LINE, "Amplitude(wavelengths: [1.0], body: 0)".to_owned(), "study.body"),
         (LINE, "Amplitude(wavelengths: [])".to_owned(), "study.wavelengths"),
         (BALL, "Amplitude(wavelengths: [1.0], derivatives: [Characteristic])".to_owned(), "Characteristic"),
+        (LINE, format!("StationaryProfile(surface: {gauss})"), "must be 2 or -2"),
+        (BALL, format!("StationaryProfile(surface: {gauss})"), "must be Line"),
     ] {
         let refused = scene(contact, &study).unwrap_err();
         assert!(refused.contains(part), "{study}: {refused}");

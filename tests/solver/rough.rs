@@ -174,6 +174,101 @@ fn vanishing_roughness_gives_the_smooth_contact() {
     assert!(smooth.mixed().is_none() && smooth.asperity_pressure.is_empty());
 }
 
+/// Sliding line and ball whose asperities carry a part of the load, with their grids.
+fn sliding_contacts() -> [(GridSpec, OperatingPoint, Roughness); 2] {
+    [(ContactKind::Line, 1.5), (ContactKind::Point, 2.0)].map(|(kind, share)| {
+        let mut point = si_from_moes(&MoesRequest::new(kind, 30.0, 8.0)).unwrap();
+        point.sliding.slide_to_roll_ratio = 0.4;
+        let spec = if kind == ContactKind::Line { LINE } else { PLANE };
+        (spec, point, Roughness::new(share * point.formula_film_m()))
+    })
+}
+
+#[test]
+fn shear_thinning_films_between_rough_surfaces_have_their_limits() {
+    let carreau = |critical_stress: f64| ShearLaw::Carreau { critical_stress, beta: 2.198, n: 0.6, npr: 0.1 };
+    for (spec, point, roughness) in sliding_contacts() {
+        let mut solver = ContactSolver::on(&spec.build().unwrap());
+        let mut with = |shear: ShearLaw, roughness: Option<Roughness>| {
+            let cavitation = Cavitation::Complementarity;
+            let laws = Lubricant { shear, cavitation, ..Lubricant::default() }.on_rough_surfaces(roughness);
+            solved(&mut solver, &point, laws, Start::Cold)
+        };
+        let thinned = with(carreau(5e6), Some(roughness));
+        assert!(thinned.report.newton_iterations < 40, "{}", thinned.report.newton_iterations);
+        let newtonian = with(ShearLaw::Newtonian, Some(roughness));
+        let (share, before) = (thinned.asperity_load_share(), newtonian.asperity_load_share());
+        assert!(thinned.scalars.h_c < newtonian.scalars.h_c && share > before, "{share} {before}");
+        assert!(thinned.fluid_traction() < 0.9 * newtonian.fluid_traction());
+        // A critical stress that the film never reaches.
+        let unreached = with(carreau(1e12), Some(roughness));
+        let off = unreached.scalars.h_c / newtonian.scalars.h_c - 1.0;
+        assert!(off.abs() < 1e-6, "{off:e}");
+        // Vanishing roughness.
+        let smooth = with(carreau(5e6), None);
+        let fine = with(carreau(5e6), Some(Roughness::new(1e-3 * point.formula_film_m())));
+        let off = fine.scalars.h_c / smooth.scalars.h_c - 1.0;
+        assert!(off.abs() < 1e-5, "{off:e}");
+    }
+}
+
+#[test]
+fn friction_of_asperities_heats_the_surfaces_of_mixed_contacts() {
+    for (spec, point, roughness) in sliding_contacts() {
+        let mut solver = ContactSolver::on(&spec.build().unwrap());
+        let mut with = |boundary_friction: f64| {
+            let laws = Roughness { boundary_friction, ..roughness };
+            let heat = Some(Heat::default());
+            let laws = Lubricant { heat, ..Lubricant::default() }.on_rough_surfaces(Some(laws));
+            solved(&mut solver, &point, laws, Start::Cold)
+        };
+        let (rubbing, sliding) = (with(0.12), with(0.0));
+        let heat = |solution: &Solution| solution.heat.clone().unwrap();
+        let [more, less] = [heat(&rubbing), heat(&sliding)];
+        assert!(more.balance.residual().abs() < 0.01, "{:?}", more.balance);
+        assert!(more.largest.surfaces_k[0] > less.largest.surfaces_k[0], "{:?} {:?}", more.largest, less.largest);
+        assert!(
+            rubbing.scalars.h_c < sliding.scalars.h_c && rubbing.asperity_load_share() > sliding.asperity_load_share()
+        );
+    }
+}
+
+/// Blok's flash temperature with the pressure of the asperities of a nearly dry contact: half of the friction heats
+/// each of two equal bodies, ΔT(x) = ∫ q(s)/√(x − s) ds/(e √(π u)) with the effusivity e.
+#[test]
+fn a_nearly_dry_contact_has_bloks_flash_temperature() {
+    let point = point(ContactKind::Line, [0.01, 1e-3, 2e5, 231e9, 1e-3, 1.5e-8, 0.02]);
+    let roughness = Roughness::new(1e-6);
+    let laws = Lubricant { heat: Some(Heat::default()), ..Lubricant::default() }.on_rough_surfaces(Some(roughness));
+    let mut solver = ContactSolver::on(&LINE.build().unwrap());
+    let solution = solved(&mut solver, &point, laws, Start::Cold);
+    assert!(solution.asperity_load_share() > 0.9, "{}", solution.asperity_load_share());
+    let hertz = point.hertz();
+    let x: Vec<f64> = solution.profile().map(|(x, ..)| x * hertz.half_width_m).collect();
+    let flux: Vec<f64> = solution
+        .asperity_pressures()
+        .map(|carried| 0.5 * roughness.boundary_friction * carried * hertz.pressure_pa * 0.02 * point.speed_m_per_s)
+        .collect();
+    let steel = laws.heat.unwrap().bodies[0];
+    let effusivity = (steel.density * steel.heat_capacity * steel.conductivity).sqrt();
+    // With s = x − r² the kernel is regular.
+    let at = |x_s: f64| {
+        let next = x.partition_point(|x| *x < x_s).clamp(1, x.len() - 1);
+        let t = (x_s - x[next - 1]) / (x[next] - x[next - 1]);
+        (1.0 - t) * flux[next - 1] + t * flux[next]
+    };
+    let rise = |end: f64| {
+        let root = (end - x[0]).sqrt();
+        let cells = 4000;
+        let sum: f64 =
+            (0..cells).map(|k| 2.0 * at(end - (root * (f64::from(k) + 0.5) / f64::from(cells)).powi(2))).sum();
+        sum * root / f64::from(cells) / (effusivity * (std::f64::consts::PI * point.speed_m_per_s).sqrt())
+    };
+    let blok = x.iter().skip(1).step_by(20).map(|x| rise(*x)).fold(0.0, f64::max);
+    let seen = solution.heat.as_ref().unwrap().largest.surfaces_k;
+    assert!(blok > 0.01 && seen.iter().all(|seen| (seen / blok - 1.0).abs() < 0.05), "{seen:?} {blok}");
+}
+
 #[test]
 fn the_rougher_surface_carries_more_lubricant_if_faster() {
     let mut solver = ContactSolver::on(&GridSpec::Uniform { dx: 0.02, domain: (-4.0, 2.0) }.build().unwrap());
@@ -328,8 +423,6 @@ fn what_is_not_supported_is_refused_in_one_sentence() {
     for (sentence, said) in [
         (with(&|laws, _| laws.cavitation = Cavitation::Penalty), "not penalty"),
         (with(&|laws, _| laws.cavitation = starved), "flooded inlet"),
-        (with(&|laws, _| laws.heat = Some(Heat::default())), "without heat"),
-        (with(&|laws, _| laws.shear = ShearLaw::Eyring { critical_stress: 5e6, npr: 0.0 }), "Newtonian"),
         (with(&|_, rough| rough.sigma = -1e-7), "the roughness in m is -1e-7"),
         (with(&|_, rough| rough.sigma = f64::NAN), "the roughness in m is NaN"),
         (with(&|_, rough| rough.peklenik = 10.0), "the Peklenik number is 10"),

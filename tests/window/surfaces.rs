@@ -54,10 +54,13 @@ fn roughness_changes_the_film_only_with_mixed_lubrication() {
     wait(&mut harness, "the picture", |app| !app.busy());
     enter(&mut harness, "Hardness", "0");
     assert!(shows(&harness, "The hardness in Pa is 0"));
-    // Heat is refused with a sentence, and everything can be undone.
+    enter(&mut harness, "Hardness", "5 GPa");
+    wait(&mut harness, "the picture", |app| !app.busy());
+    // Heat thins the film, and everything can be undone.
+    let cold = harness.state().central_film().unwrap();
     click(&mut harness, "Heat");
-    assert!(shows(&harness, "Rough surfaces are computed without heat only"));
-    for _ in 0..6 {
+    wait(&mut harness, "the thermal contact", |app| !app.busy() && app.central_film().is_some_and(|film| film < cold));
+    for _ in 0..8 {
         undo(&mut harness);
     }
     wait(&mut harness, "the smooth contact", |app| !app.busy() && app.central_film() == Some(smooth));

@@ -44,6 +44,16 @@ fn fresh() -> Window {
 }
 
 #[test]
+fn a_rough_contact_runs_in_full_with_the_load_of_its_asperities() {
+    let study = scene(BREATHING, 2.0, "Fixed").replace("at: Moes", "roughness: (sigma: 3e-7), at: Moes");
+    let (mut harness, _folder) = open("rough", &study);
+    run_in_time(&mut harness);
+    harness.get_by_role_and_label(Role::Button, "Asperities").click();
+    harness.run_steps(3);
+    assert!(harness.query_by_label("Asperity load share against time").is_some());
+}
+
+#[test]
 fn frames_are_run_compared_scrubbed_played_and_exported() {
     let (mut harness, folder) = open("frames", &scene(BREATHING, 2.0, "Fixed, ArbitraryLagrangianEulerian"));
     run_in_time(&mut harness);

@@ -324,7 +324,7 @@ impl Document {
             Some("it supports Newtonian lubricants only")
         } else if unsupported == Some(Unsupported::MassConservingModel) {
             Some("its models support cavitation by penalty or complementarity only, not mass-conserving cavitation")
-        } else if unsupported == Some(Unsupported::Roughness) || self.lubricant.is_rough() && !self.keeps(scene) {
+        } else if self.lubricant.is_rough() && !self.keeps(scene) {
             Some("it supports smooth surfaces only")
         } else if unsupported.is_some() || !self.keeps(scene) {
             Some("it supports isothermal contacts only")

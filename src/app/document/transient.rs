@@ -13,14 +13,28 @@ const GRID: Grid = Grid::Uniform { dx: 0.0075, domain: (-4.0, 2.0) };
 const PLANE: Grid = Grid::Plane(PointGridSpec::QUICK);
 
 impl Document {
-    /// Returns the transient contact that the tab shows: the document's, or a default. Without the parts that a point
+    /// Returns the transient contact that the tab shows: the document's, or a default. Without the parts that this
     /// contact does not have.
     pub fn transient_study(&self) -> TransientStudy {
-        match (self.point.kind, &self.transient) {
+        let mut study = match (self.point.kind, &self.transient) {
             (ContactKind::Line, Some(study)) => study.clone(),
             (ContactKind::Line, None) => breathing(),
-            (ContactKind::Point, Some(study)) => of_a_plane(study.clone(), self.point.is_elliptic()),
-            (ContactKind::Point, None) => of_a_plane(breathing_ball(), self.point.is_elliptic()),
+            (ContactKind::Point, Some(study)) => of_a_plane(study.clone()),
+            (ContactKind::Point, None) => of_a_plane(breathing_ball()),
+        };
+        if self.marches_in_full_only().is_some() {
+            study.drop_models();
+            study.drop_trainings();
+        }
+        study
+    }
+
+    /// Returns a sentence if transient runs of this contact use the full system only.
+    pub fn marches_in_full_only(&self) -> Option<&'static str> {
+        if self.point.is_elliptic() {
+            Some("Elliptical contacts run by the full system, in the fixed frame and with a constant radius.")
+        } else {
+            self.lubricant.is_rough().then_some("Rough contacts run by the full system.")
         }
     }
 
@@ -43,8 +57,8 @@ impl Document {
                 "Transient runs cover Newtonian lubricants only, not shear-thinning ones; choose one without shear constants",
             ),
             Unsupported::Heat => Some("Transient runs cover isothermal contacts only; switch heat off"),
-            Unsupported::Roughness => Some("Transient runs cover smooth surfaces only; set the roughness to zero"),
             Unsupported::PointContact
+            | Unsupported::RoughModel
             | Unsupported::MassConservingModel
             | Unsupported::PointFrame
             | Unsupported::PointInputs => None,
@@ -54,7 +68,9 @@ impl Document {
     /// Returns why linearised transient models do not support this contact. `None` if they do.
     pub fn no_linearised(&self) -> Option<&'static str> {
         let ellipse = "The linearised model (TPWL) covers line and circular contacts only; choose one with equal radii";
-        self.no_transient().or(self.point.is_elliptic().then_some(ellipse))
+        let rough = "The linearised model (TPWL) covers smooth surfaces only; set the roughness to zero";
+        let other = [self.point.is_elliptic().then_some(ellipse), self.lubricant.is_rough().then_some(rough)];
+        self.no_transient().or(other.into_iter().flatten().next())
     }
 
     /// Returns why the transient study does not support the contact. `None` if it does.
@@ -105,7 +121,7 @@ fn breathing_ball() -> TransientStudy {
 
 /// Returns a study without the frames, inputs, schemes and models that point contacts do not have. A model that marches
 /// train is replaced by one that responses train.
-fn of_a_plane(mut study: TransientStudy, elliptic: bool) -> TransientStudy {
+fn of_a_plane(mut study: TransientStudy) -> TransientStudy {
     let Inputs { radius, speed, .. } = &mut study.inputs;
     *radius = Signal::Constant;
     if matches!(speed, Signal::Reversing { .. }) {
@@ -115,7 +131,7 @@ fn of_a_plane(mut study: TransientStudy, elliptic: bool) -> TransientStudy {
         study.reduced = Some(ReducedTransient::by_responses());
     }
     // A linearised model shares the basis of a reduced one.
-    if elliptic || study.reduced.is_none() {
+    if study.reduced.is_none() {
         study.drop_models();
     }
     study.mass_between = None;

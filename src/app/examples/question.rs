@@ -41,6 +41,7 @@ pub fn question(scene: &Scene) -> String {
         Study::MeasuredFilm(_) => "How close is the film thickness to published values?".to_owned(),
         Study::Fit(_) => "Which constants of the lubricant explain measured film and friction?".to_owned(),
         Study::Starvation(_) => "How thin is the film of a starved contact?".to_owned(),
+        Study::StationaryProfile(_) => "How do pressure and film thickness follow a measured surface?".to_owned(),
         Study::Transition(_) => "How does a rigid, lightly loaded contact approach the dry contact?".to_owned(),
         Study::InformationLoss(_) => "How many modes do transient pressures need, and in which frame?".to_owned(),
         Study::SchemesInTime(_) => "Which scheme should a reduced model use for its time steps?".to_owned(),

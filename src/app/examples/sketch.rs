@@ -162,6 +162,14 @@ pub(super) fn marks(scene: &Scene) -> Vec<Mark> {
             let law = |x: f32| 0.85 * 1.6 * x / (1.0 + (1.6 * x).powi(3)).powf(1.0 / 3.0);
             vec![Line(Quiet, curve(law)), Dots(Film, dots(8, law))]
         }
+        Study::StationaryProfile(_) => {
+            let waves = |x: f32| 0.04 * (40.0 * x).sin() + 0.025 * (67.0 * x + 1.0).sin();
+            let bell = |x: f32| 0.8 * (1.0 - ((x - 0.5) / 0.35).powi(2)).max(0.0).sqrt();
+            vec![
+                Line(Pressure, curve(move |x| bell(x) * (1.0 + 3.0 * waves(x)))),
+                Line(Film, curve(move |x| 0.2 + waves(x))),
+            ]
+        }
         Study::Transition(_) => {
             let bell = |width: f32, height: f32| move |x: f32| height * (-((x - 0.5) / width).powi(2)).exp();
             let hertz = |x: f32| 0.85 * (1.0 - ((x - 0.5) / 0.25).powi(2)).max(0.0).sqrt();

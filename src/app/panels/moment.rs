@@ -35,6 +35,19 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>) -> bool {
     let p = value(Quantity::MaximumPressure);
     let (name, si) = (symbol(ui, "P", "max"), numbers::pressure(p * pressure, system));
     cells.push(read(name, p, si, palette.pressure, "Maximum pressure at the displayed time"));
+    if setup.lubricant.is_rough() {
+        let share = numbers::share(value(Quantity::AsperityLoadShare));
+        let tip = "Share of the load that asperities carry at the displayed time";
+        let name = symbol(ui, "L", "a");
+        cells.push(Cell {
+            name,
+            value: share,
+            unit: String::new(),
+            color: palette.traction,
+            delta: None,
+            tip: tip.into(),
+        });
+    }
     let load = setup.point.load * setup.study.inputs.load.at(time);
     let unit = Load.kind(setup.point.kind).unit(system);
     let cell = (symbol(ui, "w", ""), unit.number(load), unit.name.to_owned());

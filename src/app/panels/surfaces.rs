@@ -32,8 +32,7 @@ const EXPONENTIAL: AsperityLaw = AsperityLaw::Exponential { pressure: 5e8, decay
 
 const TIP: &str = "Root-mean-square roughness after running-in. It determines the film ratio, and with Mixed lubrication \
                    the flow in the film and the pressure of the asperities";
-const MIXED_TIP: &str = "Asperities carry part of the load, and roughness changes the flow (Patir & Cheng). For \
-                         Newtonian lubricants without heat";
+const MIXED_TIP: &str = "Asperities carry part of the load, and roughness changes the flow (Patir & Cheng)";
 const SIGMA_TIP: &str = "σ = √(Rq₁² + Rq₂²). The slider changes both surfaces by the same factor";
 const FRICTION_TIP: &str = "Friction coefficient µ_b of touching asperities; 0.1…0.15 for steel with mineral oils";
 const PEKLENIK_TIP: &str = "Length over width of the asperities along the flow, 1/9…9: 1 is isotropic, above 1 are ridges \

@@ -53,14 +53,6 @@ impl ContactSpec {
             Some(RoughnessConflict::Cavitation) => {
                 (Field::Cavitation, "rough surfaces need <cavitation=complementarity>; leave <cavitation> out")
             }
-            Some(RoughnessConflict::Heat) => {
-                (Field::Heat, "rough surfaces are isothermal; leave out <heat> or <roughness>")
-            }
-            Some(RoughnessConflict::Shear) => (
-                if self.shear.is_some() { Field::Shear } else { Field::Lubricant },
-                "rough surfaces need a Newtonian lubricant, whose traction <limiting-stress> may limit; leave out the \
-                 shear-thinning law or <roughness>",
-            ),
         };
         refuse(field, sentence)
     }

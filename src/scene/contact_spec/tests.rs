@@ -232,7 +232,6 @@ fn roughness_fields_are_read_and_set_complementarity() {
         spec.request().unwrap_err()
     };
     for (field, text, said) in [
-        (Field::Heat, "yes", "--heat"),
         (Field::Cavitation, "penalty", "--cavitation complementarity"),
         (Field::Cavitation, "mass-conserving", "--cavitation complementarity"),
         (Field::Roughness, "-1e-7", "between 0 and 0.001"),
@@ -245,6 +244,8 @@ fn roughness_fields_are_read_and_set_complementarity() {
         let refusal = with(field, text);
         assert!(refusal.field == field && refusal.in_words(Words::Flags).contains(said), "{refusal:?}");
     }
+    let warm = ContactSpec { heat: Some(true), ..rough.clone() }.request().unwrap().lubricant;
+    assert!(warm.is_rough() && warm.heat.is_some());
     let smooth = ContactSpec { roughness: Some(0.0), ..rough.clone() }.request().unwrap().lubricant;
     assert!(!smooth.is_rough() && smooth.cavitation == Cavitation::Penalty);
     let without = ContactSpec { roughness: None, ..rough.clone() }.request().unwrap_err();

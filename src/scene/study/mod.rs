@@ -48,6 +48,7 @@ pub mod random_test;
 pub mod sampling_comparison;
 pub mod schemes_in_time;
 pub mod starvation;
+pub mod stationary_profile;
 pub mod sweep;
 pub mod tolerance_study;
 pub mod training;
@@ -191,6 +192,8 @@ studies! {
     Fit(fit::Fit),
     /// The contact with several inlet film thicknesses (starvation).
     Starvation(starvation::Starvation),
+    /// Rough surface z(x) at rest in a line contact.
+    StationaryProfile(stationary_profile::StationaryProfile),
     /// Pressure and film thickness for increasing load number, from rigid bodies to the dry contact (Fig. 2.2).
     Transition(transition::Transition),
     /// Amplitude of the film thickness under a wavy surface, over its wavelength.

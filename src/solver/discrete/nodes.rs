@@ -250,6 +250,17 @@ impl Nodes {
         self.nodes.iter_mut().zip(nodes).for_each(|(own, node)| *own = node);
     }
 
+    /// Replaces one node of an evaluated film. The derivatives of mobility and flow by the pressure gradient are
+    /// multiplied by the factors.
+    pub fn replace(&mut self, k: usize, node: Node, (mobility, flow): (f64, f64)) {
+        self.nodes[k] = node;
+        if let Some(thinning) = self.thinning.get_mut(k) {
+            thinning.node = node;
+            thinning.mobility_gradient = thinning.mobility_gradient.map(|slope| mobility * slope);
+            thinning.flow_gradient = thinning.flow_gradient.map(|slope| flow * slope);
+        }
+    }
+
     /// Replaces one node of a Newtonian state.
     #[inline]
     pub fn put(&mut self, k: usize, node: Node) {

@@ -3,9 +3,13 @@
 //! The unknown is the total pressure P = P_h + P_a(H), the sum of the film pressure P_h and the asperity pressure P_a at
 //! the film thickness H. The Reynolds equation holds for P_h, so its derivative with respect to H contains that of P_a
 //! at the same node. At the ends of the domain P_h is prescribed, and the asperities carry nothing.
+//!
+//! A film that is shear-thinning or thermal is evaluated as a smooth one with the pressure P_h and the mean gap of the
+//! rough surfaces. Its mobility is then multiplied by the ratio of the flow factor's H³φ to the cube of the mean gap,
+//! and its flow by the ratio of the flow that both surfaces carry to the mean gap.
 
 use super::nodes::Nodes;
-use super::reynolds::{Node, Row, RowGeometry, STENCIL, row};
+use super::reynolds::{CENTER, Node, Row, RowGeometry, STENCIL, row};
 use crate::host::pool;
 use crate::solver::physics::lubricant::ScaledFluid;
 use crate::solver::physics::surfaces::{AsperityTable, ScaledRoughness};
@@ -22,6 +26,18 @@ pub struct Asperities {
     pub slope: f64,
 }
 
+impl Asperities {
+    /// Evaluates a law at the film thickness H of a node with a quadrature weight, which vanishes at the ends of the
+    /// domain.
+    pub fn at(rough: &ScaledRoughness, table: &AsperityTable, film: f64, weight: f64) -> Self {
+        if weight <= 0.0 {
+            return Self::default();
+        }
+        let (pressure, slope) = rough.asperity_pressure(table, film);
+        Self { pressure, slope }
+    }
+}
+
 /// One node of a rough contact.
 #[derive(Clone, Copy, Debug, Default)]
 struct RoughNode {
@@ -30,6 +46,9 @@ struct RoughNode {
     /// The same with the mobility along Y; used in anisotropic contacts only.
     across: Node,
     asperities: Asperities,
+    /// Shear flow between surfaces of unequal roughness, a part of the flow that is not stored mass, and its derivatives
+    /// by P_h and H.
+    sheared: [f64; 3],
 }
 
 /// Laws of a rough contact.
@@ -48,12 +67,14 @@ pub struct RoughLaws<'a> {
 pub struct RoughNodes {
     table: AsperityTable,
     nodes: Vec<RoughNode>,
+    /// P_h ≥ 0 and mean gap of the last evaluation by [`RoughNodes::evaluate_film`], node arrays.
+    fields: [Vec<f64>; 2],
 }
 
 impl RoughNodes {
     /// Allocates `count` nodes and tabulates the asperity law.
     pub fn new(rough: &ScaledRoughness, count: usize) -> Self {
-        Self { table: rough.table(), nodes: vec![RoughNode::default(); count] }
+        Self { table: rough.table(), nodes: vec![RoughNode::default(); count], fields: Default::default() }
     }
 
     /// Returns the table of the asperity law.
@@ -73,6 +94,11 @@ impl RoughNodes {
         self.nodes[node].along.pressure
     }
 
+    /// Returns the mass ρ̄ times mean gap that each node stores, at the last evaluation.
+    pub fn stored(&self) -> impl Iterator<Item = f64> + '_ {
+        self.nodes.iter().map(|node| node.along.flow - node.sheared[0])
+    }
+
     /// Returns the asperity pressure at every node of the last evaluation, node array.
     pub fn asperity_pressure(&self) -> Vec<f64> {
         self.nodes.iter().map(|node| node.asperities.pressure).collect()
@@ -90,12 +116,7 @@ impl RoughNodes {
     ) {
         let table = &self.table;
         let one = |k: usize, node: &mut RoughNode| {
-            let asperities = if weights[k] > 0.0 {
-                let (pressure, slope) = laws.rough.asperity_pressure(table, film[k]);
-                Asperities { pressure, slope }
-            } else {
-                Asperities::default()
-            };
+            let asperities = Asperities::at(laws.rough, table, film[k], weights[k]);
             *node = RoughNode::new(laws, pressure[k], film[k], asperities);
         };
         if parallel {
@@ -104,6 +125,38 @@ impl RoughNodes {
             self.nodes.iter_mut().enumerate().for_each(|(k, node)| one(k, node));
         }
         nodes.set(self.nodes.iter().map(|node| node.along));
+    }
+
+    /// Evaluates all nodes like [`Self::evaluate`] for a film whose laws depend on the pressure gradient or on
+    /// temperatures. `smooth` evaluates the nodes of a smooth film with the pressures P_h ≥ 0 and the mean gaps that it
+    /// receives.
+    pub fn evaluate_film(
+        &mut self,
+        laws: RoughLaws<'_>,
+        (pressure, film): (&[f64], &[f64]),
+        weights: &[f64],
+        nodes: &mut Nodes,
+        smooth: impl FnOnce(&mut Nodes, (&[f64], &[f64])),
+    ) {
+        let Self { table, nodes: own, fields: [pressures, gaps] } = self;
+        pressures.clear();
+        gaps.clear();
+        let film_pressure = |k: usize, node: &RoughNode| pressure[k] - node.asperities.pressure;
+        for (k, node) in own.iter_mut().enumerate() {
+            node.asperities = Asperities::at(laws.rough, table, film[k], weights[k]);
+            pressures.push(film_pressure(k, node).max(0.0));
+            gaps.push(laws.rough.mean_gap(film[k]).0);
+        }
+        smooth(nodes, (pressures, gaps));
+        for (k, node) in own.iter_mut().enumerate() {
+            let between = FilmBetween::new(laws.rough, film_pressure(k, node), film[k]);
+            let smooth = nodes[k];
+            let across = laws.rough.cube_across(film[k]);
+            node.across = across.map(|cube| between.node(&smooth, cube)).unwrap_or_default();
+            node.along = between.node(&smooth, laws.rough.cube(film[k]));
+            node.sheared = between.sheared(&smooth);
+            nodes.replace(k, node.along, (between.per_gap(laws.rough.cube(film[k]).0, 3), between.carried.0));
+        }
     }
 
     /// Evaluates one node of a contact whose flow is the same along X and Y, and writes its film to `nodes`. If it is
@@ -139,6 +192,12 @@ impl RoughNodes {
         } else {
             at(geometry, |node| &node.along)
         };
+        if geometry.storage != 0.0 {
+            let [flow, flow_p, flow_h] = self.nodes[stencil[CENTER]].sheared;
+            own.value += geometry.storage * flow;
+            own.d_p[CENTER] += geometry.storage * flow_p;
+            own.d_h[CENTER] += geometry.storage * flow_h;
+        }
         for ((d_h, d_p), &node) in own.d_h.iter_mut().zip(own.d_p).zip(&stencil) {
             *d_h -= d_p * self.nodes[node].asperities.slope;
         }
@@ -174,6 +233,58 @@ impl RoughNode {
             mobility_h: per_cube * cube_h,
         };
         let across = rough.cube_across(film).map(node).unwrap_or_default();
-        Self { along: node(rough.cube(film)), across, asperities }
+        let (gap, gap_h) = rough.mean_gap(film);
+        let sheared =
+            [state.density * (carried - gap), density_slope * (carried - gap), state.density * (carried_h - gap_h)];
+        Self { along: node(rough.cube(film)), across, asperities, sheared }
+    }
+}
+
+/// Conversion of a node of a smooth film with the mean gap to one between rough surfaces.
+struct FilmBetween {
+    film_pressure: f64,
+    /// 1 if the laws depend on P_h, 0 below zero, where they are constant.
+    rises: f64,
+    /// Mean gap and its derivative by H.
+    gap: (f64, f64),
+    /// Flow that both surfaces carry over the mean gap, and its derivative by H.
+    carried: (f64, f64),
+}
+
+impl FilmBetween {
+    fn new(rough: &ScaledRoughness, film_pressure: f64, film: f64) -> Self {
+        let (gap, (carried, carried_h)) = (rough.mean_gap(film), rough.carried(film));
+        let ratio = carried / gap.0;
+        let rises = f64::from(u8::from(film_pressure >= 0.0));
+        Self { film_pressure, rises, gap, carried: (ratio, (carried_h - ratio * gap.1) / gap.0) }
+    }
+
+    /// Returns a value over a power of the mean gap.
+    fn per_gap(&self, value: f64, power: i32) -> f64 {
+        value / self.gap.0.powi(power)
+    }
+
+    /// Returns the node. `cube` is the cube of the film thickness times the flow factor, and its derivative by H.
+    fn node(&self, smooth: &Node, (cube, cube_h): (f64, f64)) -> Node {
+        let (_, gap_h) = self.gap;
+        let factor = self.per_gap(cube, 3);
+        let factor_h = self.per_gap(cube_h, 3) - 3.0 * factor * gap_h / self.gap.0;
+        let (carried, carried_h) = self.carried;
+        Node {
+            pressure: self.film_pressure,
+            flow: smooth.flow * carried,
+            flow_p: self.rises * smooth.flow_p * carried,
+            flow_h: smooth.flow_h * gap_h * carried + smooth.flow * carried_h,
+            mobility: smooth.mobility * factor,
+            mobility_p: self.rises * smooth.mobility_p * factor,
+            mobility_h: smooth.mobility_h * gap_h * factor + smooth.mobility * factor_h,
+        }
+    }
+
+    /// Returns the flow that is not stored mass, and its derivatives by P_h and H.
+    fn sheared(&self, smooth: &Node) -> [f64; 3] {
+        let (_, gap_h) = self.gap;
+        let (extra, extra_h) = (self.carried.0 - 1.0, self.carried.1);
+        [smooth.flow * extra, self.rises * smooth.flow_p * extra, smooth.flow_h * gap_h * extra + smooth.flow * extra_h]
     }
 }

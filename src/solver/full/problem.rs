@@ -146,6 +146,15 @@ impl Problem {
         Some(RoughLaws { fluid: &self.fluid, rough, inverse_lambda: self.inverse_lambda })
     }
 
+    /// Returns the heat flux into each body per asperity pressure P_a, in the unit of the march of the temperatures: half
+    /// of the friction μ_b p_a |u₂ − u₁|. `None` without heat or for smooth surfaces.
+    pub fn boundary_flux(&self) -> Option<f64> {
+        let (heat, rough) = self.heat.as_ref().zip(self.rough)?;
+        let stress = rough.roughness.boundary_friction * self.point.hertz().pressure_pa / heat.stress_scale_pa;
+        let sliding = self.point.sliding.slide_to_roll_ratio.abs();
+        Some(0.5 * heat.shear * stress * sliding / heat.conduction)
+    }
+
     /// Returns the data for marching through a thermal film, given P, P_X and H at the stations, or `None` for an
     /// isothermal problem.
     pub fn course<'a>(&'a self, states: &'a [NodeState]) -> Option<Course<'a>> {

@@ -7,7 +7,7 @@ use super::active_set::ActiveSet;
 use super::newton_space::NewtonSpace;
 use super::problem::Problem;
 use super::solution::Solution;
-use super::system::System;
+use super::system::{System, evaluate_film};
 use crate::solver::discrete::reynolds::{CENTER, Row};
 use crate::solver::discrete::rough::{Asperities, RoughNodes};
 use crate::solver::discrete::space::Grid;
@@ -42,6 +42,18 @@ impl ActiveSet {
     }
 }
 
+/// Film between rough surfaces, node arrays.
+pub(super) struct RoughFilm {
+    /// Film pressure P_h ≥ 0.
+    pub pressure: Vec<f64>,
+    /// Mean gap in units of a²/R.
+    pub gap: Vec<f64>,
+    /// Pressure-driven flow over that of a smooth film with the mean gap.
+    pub flow_factor: Vec<f64>,
+    /// Asperity pressure P_a.
+    pub asperities: Vec<f64>,
+}
+
 impl<S: NewtonSpace> System<S> {
     /// Prepares the nodes of rough surfaces. The table of an asperity law is reused for further contacts with this law.
     pub(super) fn begin_rough(&mut self, problem: &Problem) {
@@ -54,10 +66,44 @@ impl<S: NewtonSpace> System<S> {
 
     /// Evaluates the nodes of rough surfaces. No effect for smooth surfaces.
     pub(super) fn evaluate_rough(&mut self, problem: &Problem) {
-        let Self { space, rough, nodes, pressure, film, .. } = self;
-        if let Some((rough, laws)) = rough.as_mut().zip(problem.rough_laws()) {
-            rough.evaluate(laws, (pressure, film), space.grid().weights(), nodes, S::PARALLEL);
+        let Self { space, rough, nodes, pressure, film, thinning, warm, treatment, .. } = self;
+        let Some((rough, laws)) = rough.as_mut().zip(problem.rough_laws()) else { return };
+        let (weights, fields) = (space.grid().weights(), (&pressure[..], &film[..]));
+        if problem.shear.is_none() && problem.heat.is_none() {
+            rough.evaluate(laws, fields, weights, nodes, S::PARALLEL);
+            return;
         }
+        rough.evaluate_film(laws, fields, weights, nodes, |nodes, fields| {
+            evaluate_film(space, (nodes, thinning, warm), problem, fields, *treatment);
+        });
+    }
+
+    /// Returns pressure and mean gap of the film between rough surfaces, and the pressure of the asperities, at the
+    /// current state. `None` for smooth surfaces.
+    pub(super) fn film_between_asperities(&self, problem: &Problem) -> Option<RoughFilm> {
+        let (nodes, rough) = self.rough.as_ref().zip(problem.rough)?;
+        let weights = self.space.grid().weights();
+        let carried = |(film, weight): (&f64, &f64)| Asperities::at(&rough, nodes.table(), *film, *weight).pressure;
+        let asperities: Vec<f64> = self.film.iter().zip(weights).map(carried).collect();
+        let pressure = self.pressure.iter().zip(&asperities).map(|(total, carried)| (total - carried).max(0.0));
+        let gap = self.film.iter().map(|film| rough.mean_gap(*film).0);
+        let flow_factor = self.film.iter().map(|film| rough.cube(*film).0 / rough.mean_gap(*film).0.powi(3));
+        let (mut pressure, gap, flow_factor): (Vec<f64>, _, _) =
+            (pressure.collect(), gap.collect(), flow_factor.collect());
+        // In the cavitated set the difference is rounding.
+        for (k, _) in self.active.ruptured.iter().enumerate().filter(|(_, ruptured)| **ruptured) {
+            pressure[self.space.grid().node(k)] = 0.0;
+        }
+        Some(RoughFilm { pressure, gap, flow_factor, asperities })
+    }
+
+    /// Returns the share of the carried load that asperities carry; 0 for smooth surfaces.
+    pub(super) fn asperity_load_share(&self) -> f64 {
+        let weights = self.space.grid().weights();
+        let carried = |nodes: &RoughNodes| -> f64 {
+            weights.iter().enumerate().map(|(node, weight)| weight * nodes.asperities(node).pressure).sum()
+        };
+        self.rough.as_ref().map_or(0.0, |nodes| carried(nodes) / self.carried_load())
     }
 
     /// Initialises the cavitated set of rough surfaces: nodes behind the centre without film pressure.

@@ -57,7 +57,7 @@ pub struct System<S: NewtonSpace> {
     pub(super) nodes: Nodes,
     /// Contribution of shear thinning to the Jacobian; created at its first use.
     pub(super) thinning: Option<Thinning>,
-    treatment: FilmTreatment,
+    pub(super) treatment: FilmTreatment,
     /// Temperatures of a thermal film.
     pub(super) warm: Option<WarmFilm>,
     /// Nodes of rough surfaces.
@@ -93,6 +93,31 @@ const AT_REST: f64 = 1.0;
 /// wrong.
 pub(super) fn is_at_rest(residual_norm: f64) -> bool {
     residual_norm < AT_REST
+}
+
+/// Evaluates the nodes of a smooth film, Newtonian, shear-thinning or thermal, at pressure P and film thickness H.
+pub(super) fn evaluate_film<S: NewtonSpace>(
+    space: &S,
+    (nodes, thinning, warm): (&mut Nodes, &mut Option<Thinning>, &mut Option<WarmFilm>),
+    problem: &Problem,
+    (pressure, film): (&[f64], &[f64]),
+    treatment: FilmTreatment,
+) {
+    let laws = problem.laws();
+    let order = if S::PARALLEL { Order::Parallel } else { Order::Alone };
+    let warm = warm.as_mut().zip(problem.warm_laws());
+    let thins = laws.shear.is_some() || warm.is_some();
+    let thinning = thins.then(|| thinning.get_or_insert_with(|| Thinning::new(space)));
+    let gradient = thinning.as_ref().map(|thinning| &thinning.gradient);
+    let at = |k: usize| match (gradient, S::AXES) {
+        (None, _) => [0.0; 2],
+        (Some(gradient), 1) => [gradient.along().at(pressure, k), 0.0],
+        (Some(gradient), _) => gradient.at_node(pressure, k),
+    };
+    match warm {
+        Some((warm, laws)) => nodes.evaluate_warm(&laws, (pressure, film), at, warm, order),
+        None => nodes.evaluate(laws, (pressure, film), at, treatment, order),
+    }
 }
 
 impl<S: NewtonSpace> System<S> {
@@ -188,22 +213,8 @@ impl<S: NewtonSpace> System<S> {
             self.evaluate_rough(problem);
             return self.evaluate_rows(problem, penalty);
         }
-        let Self { space, nodes, pressure, film, .. } = self;
-        let laws = problem.laws();
-        let order = if S::PARALLEL { Order::Parallel } else { Order::Alone };
-        let warm = self.warm.as_mut().zip(problem.warm_laws());
-        let thins = laws.shear.is_some() || warm.is_some();
-        let thinning = thins.then(|| self.thinning.get_or_insert_with(|| Thinning::new(space)));
-        let gradient = thinning.as_ref().map(|thinning| &thinning.gradient);
-        let at = |k: usize| match (gradient, S::AXES) {
-            (None, _) => [0.0; 2],
-            (Some(gradient), 1) => [gradient.along().at(pressure, k), 0.0],
-            (Some(gradient), _) => gradient.at_node(pressure, k),
-        };
-        match warm {
-            Some((warm, laws)) => nodes.evaluate_warm(&laws, (pressure, film), at, warm, order),
-            None => nodes.evaluate(laws, (pressure, film), at, self.treatment, order),
-        }
+        let Self { space, nodes, pressure, film, thinning, warm, .. } = self;
+        evaluate_film(space, (nodes, thinning, warm), problem, (pressure, film), self.treatment);
         if self.active.fills() {
             self.active.fill(self.space.grid(), &mut self.nodes);
         }
@@ -248,9 +259,11 @@ impl<S: NewtonSpace> System<S> {
         all
     }
 
-    /// Returns ρ̄H of the last evaluation, node array.
-    pub(super) fn flow(&self) -> impl Iterator<Item = f64> + '_ {
-        self.nodes.iter().map(|node| node.flow)
+    /// Returns the stored mass of the last evaluation, node array: ρ̄H, and ρ̄ times the mean gap of rough surfaces.
+    pub(super) fn stored(&self) -> impl Iterator<Item = f64> + '_ {
+        let rough = self.rough.iter().flat_map(RoughNodes::stored);
+        let smooth = self.rough.is_none().then(|| self.nodes.iter().map(|node| node.flow));
+        rough.chain(smooth.into_iter().flatten())
     }
 
     /// Runs Newton's method from the current state.
@@ -275,8 +288,12 @@ impl<S: NewtonSpace> System<S> {
         self.begin_rupture(problem);
     }
 
-    /// Sets the pressures of a node array to zero in the cavitated region and wherever they are negative.
+    /// Sets the pressures of a node array to zero in the cavitated region and wherever they are negative. No effect for
+    /// rough surfaces, whose asperities carry a pressure there.
     pub(super) fn keep_ruptured(&self, pressure: &mut [f64]) {
+        if self.rough.is_some() {
+            return;
+        }
         let grid = self.space.grid();
         for (k, &ruptured) in self.active.ruptured.iter().enumerate() {
             let p = &mut pressure[grid.node(k)];
@@ -466,7 +483,8 @@ impl<S: NewtonSpace> System<S> {
         load: f64,
         observer: &dyn Observer,
     ) -> LinearOutcome {
-        let Self { space, krylov, scratch, step, step_deformation, rows, scaling, preconditioner, rhs, .. } = self;
+        let Self { space, krylov, scratch, step, step_deformation, rows, scaling, preconditioner, rhs, rough, .. } =
+            self;
         let (update, active) = (&mut self.update, &self.active);
         let (space, u, prescribed) = (&*space, rows.len(), self.prescribed);
         let diagonal = space.own_deformation();
@@ -502,8 +520,10 @@ impl<S: NewtonSpace> System<S> {
                 }
                 space.grid().deform(step, step_deformation, scratch);
                 let carried = dot(weights, step);
-                if let Some(thinning) = &mut thinning {
-                    thinning.turn::<S>(step);
+                match (&mut thinning, &*rough) {
+                    (Some(thinning), None) => thinning.turn::<S>(step),
+                    (Some(thinning), Some(rough)) => thinning.turn_rough::<S>(step, (step_deformation, v[u]), rough),
+                    (None, _) => {}
                 }
                 if active.fills() {
                     active.with_fractions(space.grid(), v, step);

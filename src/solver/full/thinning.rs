@@ -5,6 +5,7 @@
 use crate::solver::discrete::nodes::Nodes;
 use crate::solver::discrete::reynolds::STENCIL;
 use crate::solver::discrete::reynolds::generalized::PlaneGradient;
+use crate::solver::discrete::rough::RoughNodes;
 use crate::solver::discrete::space::{Grid, Space};
 
 /// Gradient operators G and the derivatives by which they are multiplied.
@@ -16,6 +17,8 @@ pub struct Thinning {
     pub slopes: [Vec<[f64; STENCIL]>; 2],
     /// (P_X, P_Y) of the direction to which the Jacobian is applied.
     direction: Vec<[f64; 2]>,
+    /// Change of the film pressure between rough surfaces, node array.
+    film_pressure: Vec<f64>,
 }
 
 impl Thinning {
@@ -27,6 +30,7 @@ impl Thinning {
             gradient: PlaneGradient::new(x, y),
             slopes: [0, 1].map(|axis| vec![[0.0; STENCIL]; if axis < S::AXES { grid.unknowns() } else { 0 }]),
             direction: vec![[0.0; 2]; grid.weights().len()],
+            film_pressure: Vec::new(),
         }
     }
 
@@ -43,6 +47,19 @@ impl Thinning {
     /// Computes the gradient field of the node array v, a direction of pressures, for [`Self::add_product`].
     pub fn turn<S: Space>(&mut self, v: &[f64]) {
         self.gradient.field(v, &mut self.direction, S::PARALLEL);
+    }
+
+    /// Does the same for rough surfaces, whose film pressure changes by that of P minus that of the asperity pressure.
+    /// `film` is the change of the film thickness as deformation and ΔH₀.
+    pub fn turn_rough<S: Space>(&mut self, v: &[f64], (deformation, shift): (&[f64], f64), rough: &RoughNodes) {
+        self.film_pressure.clear();
+        let change = |(node, (p, d)): (usize, (&f64, &f64))| {
+            // Negative film pressures count as zero.
+            let rises = if rough.film_pressure(node) < 0.0 { 0.0 } else { 1.0 };
+            rises * (p - rough.asperities(node).slope * (d + shift))
+        };
+        self.film_pressure.extend(v.iter().zip(deformation).enumerate().map(change));
+        self.gradient.field(&self.film_pressure, &mut self.direction, S::PARALLEL);
     }
 
     /// Adds the product with the direction last given to [`Self::turn`]. Each equation is multiplied by its scaling.

@@ -68,7 +68,7 @@ fn names(input: Input) -> Names {
 /// Draws the form. `last` is the field that was changed last.
 pub fn ui(ui: &mut Ui, last: &mut LastField, context: &Context<'_>, commands: &mut Commands) {
     let mut read_table = false;
-    let (kind, elliptic) = (context.document.point.kind, context.document.point.is_elliptic());
+    let kind = context.document.point.kind;
     let point = kind == ContactKind::Point;
     *last = edit(ui, ("transient", *last), context, commands, |ui, form, study| {
         heading(ui, "Inputs");
@@ -89,9 +89,9 @@ pub fn ui(ui: &mut Ui, last: &mut LastField, context: &Context<'_>, commands: &m
         if !point {
             frames_ui(ui, form, &mut study.frames);
         }
-        if elliptic {
+        if let Some(why) = context.document.marches_in_full_only() {
             heading(ui, "Methods");
-            ui.weak("Elliptical contacts run by the full system, in the fixed frame and with a constant radius.");
+            ui.weak(why);
         } else {
             methods::ui(ui, form, study, kind);
         }

@@ -53,6 +53,8 @@ enum Against {
     Film,
     /// P_c.
     Pressure,
+    /// Load share of asperities; for rough surfaces only.
+    Asperities,
 }
 
 /// Plot against time.
@@ -67,7 +69,12 @@ impl Along {
     pub fn ui(&mut self, ui: &mut Ui, view: &TransientRuns, height: f32, above: bool) -> Option<f64> {
         let below = if above { "" } else { "{T}" };
         let palette = Palette::of(ui);
+        let rough = view.setup.as_ref().is_some_and(|setup| setup.lubricant.is_rough());
+        if self.against == Against::Asperities && !rough {
+            self.against = Against::Together;
+        }
         ui.horizontal_wrapped(|ui| {
+            let asperities = (Against::Asperities, "Asperities", "Share of the load that asperities carry");
             let options = [
                 (
                     Against::Together,
@@ -82,7 +89,7 @@ impl Along {
                      reduced basis permits, that of the projected full pressure",
                 ),
             ];
-            for (option, name, tip) in options {
+            for (option, name, tip) in options.into_iter().chain(rough.then_some(asperities)) {
                 ui.selectable_value(&mut self.against, option, name).on_hover_text(tip);
             }
             if self.against == Against::Together {
@@ -96,6 +103,7 @@ impl Along {
             Against::Together => return together(ui, view, height, below),
             Against::Film => ("film", Quantity::CentralFilm, palette.film, "Film {H_c}"),
             Against::Pressure => ("pressure", Quantity::CentralPressure, palette.pressure, "Pressure {P_c}"),
+            Against::Asperities => ("asperities", Quantity::AsperityLoadShare, palette.traction, "Asperity load share"),
         };
         LinkedPlot { name, quantity, color }.show(ui, view, height, (below, title), false)
     }
@@ -235,6 +243,7 @@ impl LinkedPlot {
         if let Some(scales) = view.setup.as_ref().map(|setup| Scales::of(&setup.point, system)).filter(|_| !deviation) {
             plot = match self.quantity {
                 Quantity::CentralPressure => plot.units_y(scales.pressure, "Pressure {p_c}"),
+                Quantity::AsperityLoadShare => plot,
                 _ => plot.units_y(scales.film, "Film {h_c}"),
             };
         }
@@ -244,6 +253,7 @@ impl LinkedPlot {
         let name = match self.name {
             "pressure" => "Central pressure against time",
             "film" => "Central film against time",
+            "asperities" => "Asperity load share against time",
             _ => "Deviation between runs",
         };
         let shown = axes::show(plot, ui, name, |plot| {

@@ -82,6 +82,7 @@ mod tests {
             p_c: 1.0,
             p_max: 1.0,
             x_p_max: 0.0,
+            asperity_load_share: 0.0,
             effort: Default::default(),
         };
         let grid = scene.grid.spec().unwrap().line().unwrap().scaled(1.0);

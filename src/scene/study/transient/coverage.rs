@@ -20,7 +20,7 @@ pub(super) fn refused(why: Unsupported) -> Refused {
         Unsupported::PointInputs => ("study.inputs", "must have other values"),
         Unsupported::ShearThinning => ("lubricant.shear", "must be Newtonian"),
         Unsupported::Heat => ("heat", "must be left out"),
-        Unsupported::Roughness => ("roughness", "must be left out"),
+        Unsupported::RoughModel => ("roughness", "must be left out"),
         Unsupported::MassConservingModel => ("cavitation", "must be Penalty or Complementarity"),
     };
     refuse(field, format!("{wanted}: {why}"))
@@ -72,7 +72,7 @@ pub fn check_request(request: &Request) -> Result<(), Refusal> {
             }
             Unsupported::ShearThinning => (Field::Shear, "<shear> must be newtonian"),
             Unsupported::Heat => (Field::Heat, "<heat> must be left out"),
-            Unsupported::Roughness => (Field::Roughness, "<roughness> must be left out"),
+            Unsupported::RoughModel => (Field::Roughness, "<roughness> must be left out"),
             Unsupported::MassConservingModel => (Field::Cavitation, "<cavitation> must be penalty or complementarity"),
         };
         Refusal::new(field, format!("{wanted}: {why}"))

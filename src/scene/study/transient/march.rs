@@ -224,7 +224,8 @@ impl March {
         let trajectory = &self.trajectory;
         let Some(start) = trajectory.moments.first() else { return };
         let load = trajectory.transient.separation.as_ref().map(|_| ("load", Quantity::Load));
-        for (quantity_name, quantity) in QUANTITIES.into_iter().chain(load) {
+        let share = trajectory.problem.rough.map(|_| ("asperity_load_share", Quantity::AsperityLoadShare));
+        for (quantity_name, quantity) in QUANTITIES.into_iter().chain(load).chain(share) {
             let mut push = |what: &str, value| found.push(format!("{}.{quantity_name}.{what}", self.name), None, value);
             push("start", start.value(quantity));
             if let (Some(mean), Some(amplitude)) =
@@ -271,5 +272,10 @@ pub fn series(name: &str, trajectory: &Trajectory) -> Table {
     table.columns.push("step_error".to_owned());
     let error = trajectory.step_error.unwrap_or(f64::NAN);
     table.rows.iter_mut().for_each(|row| row.push(error));
+    if trajectory.problem.rough.is_some() {
+        table.columns.push("asperity_load_share".to_owned());
+        let rows = table.rows.iter_mut().zip(&trajectory.moments);
+        rows.for_each(|(row, moment)| row.push(moment.asperity_load_share));
+    }
     table
 }

@@ -1,4 +1,4 @@
-//! ONE row of the discrete Reynolds equation (2.31) at one node: its value and exact derivatives.
+//! One row of the discrete Reynolds equation (2.31) at one node: its value and exact derivatives.
 //!
 //! The row is a function of six nodes, in the order [`WEST2`], [`WEST`], [`CENTER`], [`EAST`], [`SOUTH`], [`NORTH`].
 //! A line contact is a grid with one row of nodes in Y, whose Y coefficients are zero. The full system uses all rows,
@@ -88,6 +88,9 @@ pub struct RowGeometry {
     pub north: f64,
     /// Contribution of the previous steps to the time derivative; zero in a steady contact.
     pub history: f64,
+    /// Weight of the stored mass ρ̄H of the row's own node, which the last of the upwind weights includes; zero in a
+    /// steady contact.
+    pub storage: f64,
 }
 
 impl RowGeometry {
@@ -148,7 +151,7 @@ impl RowGeometry {
     /// costs no more than a steady one.
     pub fn in_time(self, speed: f64, storage: f64, history: f64) -> Self {
         let [west_2, west, center] = self.upwind.map(|weight| speed * weight);
-        Self { upwind: [west_2, west, center + storage], history, ..self }
+        Self { upwind: [west_2, west, center + storage], history, storage, ..self }
     }
 }
 

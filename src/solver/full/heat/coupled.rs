@@ -79,11 +79,17 @@ impl Coupled {
         Self { gradient: PlaneGradient::new(x, ordinates), lines, columns }
     }
 
-    /// Copies P, its gradient and H of the system to the stations.
-    pub fn look<S: NewtonSpace>(&mut self, system: &System<S>) {
+    /// Copies P, its gradient and H of the system to the stations. Between rough surfaces these are the pressure of the
+    /// film and the mean gap, with the gradient that drives the same flow through it. The friction of the asperities heats both surfaces alike.
+    pub fn look<S: NewtonSpace>(&mut self, system: &System<S>, problem: &Problem) {
         let (x, _) = system.space.grid().abscissae();
         let Self { columns, lines, gradient } = self;
-        let (pressure, ny) = (&system.pressure, lines.lines.len());
+        let rough = system.film_between_asperities(problem);
+        let (pressure, film) = match &rough {
+            Some(fields) => (&fields.pressure, &fields.gap),
+            None => (&system.pressure, &system.film),
+        };
+        let ny = lines.lines.len();
         for (j, line) in lines.lines.iter_mut().enumerate() {
             for (i, (state, &column)) in line.states.iter_mut().zip(&*columns).enumerate() {
                 let node = column * ny + j;
@@ -92,7 +98,15 @@ impl Coupled {
                     // The node outside the inlet carries no information on the pressure.
                     slopes[0] = one_sided(&x[column..], [0, 1, 2].map(|k| pressure[node + k * ny]));
                 }
-                *state = NodeState { pressure: pressure[node], gradient: slopes, film: system.film[node] };
+                if let Some(fields) = &rough {
+                    slopes = slopes.map(|slope| fields.flow_factor[node] * slope);
+                }
+                *state = NodeState { pressure: pressure[node], gradient: slopes, film: film[node] };
+            }
+            if let Some((fields, per_pressure)) = rough.as_ref().zip(problem.boundary_flux()) {
+                line.march.boundary.clear();
+                let carried = columns.iter().map(|column| fields.asperities[column * ny + j]);
+                line.march.boundary.extend(carried.map(|carried| per_pressure * carried));
             }
         }
     }
@@ -105,12 +119,13 @@ impl Coupled {
         heat: &ScaledHeat,
     ) -> Temperatures {
         let (grid, lines) = (system.space.grid(), &self.lines);
+        let rough = system.film_between_asperities(problem);
         let fields = NodeArrays {
             x: grid.abscissae().0,
             y: grid.across(),
             first: S::FIRST_COLUMN,
-            pressure: &system.pressure,
-            film: &system.film,
+            pressure: rough.as_ref().map_or(&system.pressure, |fields| &fields.pressure),
+            film: rough.as_ref().map_or(&system.film, |fields| &fields.gap),
             stress: system.warm.as_ref().map_or(&[][..], |warm| &warm.stress),
         };
         let places = fields.x[fields.first..].iter().flat_map(|x| fields.y.iter().map(|y| (*x, *y)));
@@ -144,7 +159,7 @@ impl Coupled {
         system.begin(problem, &options);
         let mut memory = S::Memory::default();
         for number in 0..pace.turns {
-            self.look(system);
+            self.look(system, problem);
             self.state(system, &mut from);
             if let Some(course) = problem.course(&[]) {
                 changed = self.lines.march(&course, (share, (1e-3 * changed).clamp(1e-10, 1e-4)), true);

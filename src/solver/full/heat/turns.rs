@@ -81,7 +81,7 @@ fn from<S: NewtonSpace>(
     report.attempts += 1;
     let mut coupled = Coupled::new(&system, former.heat.as_deref());
     coupled.turn(&mut system, &problem, (&solver.options, pace), observer, &mut report);
-    coupled.look(&system);
+    coupled.look(&system, &problem);
     let temperatures = coupled.temperatures(&system, &problem, heat);
     system.warm = None;
     solver.system = Some(system);

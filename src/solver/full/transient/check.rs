@@ -69,6 +69,12 @@ impl Transient {
             return refuse("surfaces need the fixed frame, and a speed and a radius that are constant");
         }
         if self.scheme == Scheme::Characteristic {
+            let unequal = self.lubricant.roughness.is_some_and(|roughness| roughness.shear_flow != 0.0);
+            if unequal && self.lubricant.is_rough() {
+                return refuse(
+                    "the scheme Characteristic needs the same roughness of both surfaces, without shear flow",
+                );
+            }
             let equal = matches!(self.time_step, TimeStep::Fixed(_));
             if !(self.frame == Frame::Fixed && steady && equal) {
                 return refuse(

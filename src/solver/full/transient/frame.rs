@@ -4,6 +4,7 @@ use super::signal::Input;
 use super::spline::Interpolation;
 use crate::solver::full::{Problem, SolveError};
 use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::surfaces::ScaledRoughness;
 use serde::{Deserialize, Serialize};
 
 /// Frame: motion of the computational domain with the contact.
@@ -96,7 +97,8 @@ impl Frame {
                 let growth = input.radius * input.radius / (scales.pressure * scales.half_width.powi(2));
                 let inverse_lambda = reference.inverse_lambda / growth;
                 let supply = reference.supply.map(|supply| supply / scales.film);
-                (Problem { fluid, inverse_lambda, supply, ..*reference }, 1.0)
+                let rough = ScaledRoughness::new(reference.lubricant.roughness, &point);
+                (Problem { fluid, inverse_lambda, supply, rough, ..*reference }, 1.0)
             }
         };
         Ok(Conditions { time, input, scales, problem, curvature, speed: input.speed / scales.half_width })

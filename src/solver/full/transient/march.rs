@@ -11,7 +11,7 @@ use super::unsupported::Unsupported;
 use crate::solver::full::{Mesh, Problem, SolveError, Termination};
 use crate::solver::observer::{Observer, Progress};
 use crate::solver::physics::contact::OperatingPoint;
-use crate::solver::physics::lubricant::{Lubricant, LubricantOfMarch};
+use crate::solver::physics::lubricant::{Lubricant, WholeLubricant};
 use serde::{Deserialize, Serialize};
 
 /// Definition of a transient simulation.
@@ -20,7 +20,7 @@ pub struct Transient {
     /// Reference contact.
     pub point: OperatingPoint,
     /// Lubricant of the contact.
-    #[serde(with = "LubricantOfMarch")]
+    #[serde(with = "WholeLubricant")]
     pub lubricant: Lubricant,
     /// Inputs that vary in time.
     pub inputs: Inputs,

@@ -5,6 +5,7 @@ use super::trajectory::{State, Trajectory};
 use crate::solver::discrete::grid::{FIRST_UNKNOWN, cubic};
 use crate::solver::discrete::nodes::Nodes;
 use crate::solver::discrete::reynolds::generalized::PlaneGradient;
+use crate::solver::discrete::rough::RoughNodes;
 
 /// Mass balance between two fixed places over the kept states of a trajectory, in units of ρ₀ (a³/R)_ref.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -57,15 +58,23 @@ impl Trajectory {
 /// Nodal flow and mobility of one state.
 struct Film<'a> {
     x: &'a [f64],
-    pressure: &'a [f64],
     nodes: Nodes,
+    /// Stored mass, node array.
+    stored: Vec<f64>,
     at: &'a Conditions,
 }
 
 impl<'a> Film<'a> {
     fn new(x: &'a [f64], state: &'a State, at: &'a Conditions) -> Self {
-        let nodes = Nodes::of(at.problem.laws(), &PlaneGradient::along_line(x), &state.pressure, &state.film);
-        Self { x, pressure: &state.pressure, nodes, at }
+        let mut nodes = Nodes::of(at.problem.laws(), &PlaneGradient::along_line(x), &state.pressure, &state.film);
+        let mut stored: Vec<f64> = nodes.iter().map(|node| node.flow).collect();
+        if let Some(laws) = at.problem.rough_laws() {
+            let weights = vec![1.0; x.len()];
+            let mut rough = RoughNodes::new(laws.rough, x.len());
+            rough.evaluate(laws, (&state.pressure, &state.film), &weights, &mut nodes, false);
+            stored = rough.stored().collect();
+        }
+        Self { x, nodes, stored, at }
     }
 
     /// Returns a nodal quantity at a place given in units of a_ref; `None` outside the domain.
@@ -86,14 +95,15 @@ impl<'a> Film<'a> {
                 k if k % 2 == 1 => 4.0,
                 _ => 2.0,
             };
-            sum += weight * self.value(from + k as f64 * h, |i| self.nodes[i].flow)?;
+            sum += weight * self.value(from + k as f64 * h, |i| self.stored[i])?;
         }
         Some(sum * h / 3.0 * self.at.scales.film)
     }
 
-    /// Returns the flux U ρ̄H − ξ ∂P/∂X at a place (speed U, mobility ξ, pressure P).
+    /// Returns the flux U ρ̄H − ξ ∂P/∂X at a place (speed U, mobility ξ, film pressure P).
     fn flux(&self, place: f64) -> Option<f64> {
-        let slope = |i: usize| (self.pressure[i + 1] - self.pressure[i - 1]) / (self.x[i + 1] - self.x[i - 1]);
+        let pressure = |i: usize| self.nodes[i].pressure;
+        let slope = |i: usize| (pressure(i + 1) - pressure(i - 1)) / (self.x[i + 1] - self.x[i - 1]);
         let flux = self.value(place, |i| self.at.speed * self.nodes[i].flow - self.nodes[i].mobility * slope(i))?;
         Some(flux * self.at.scales.film * self.at.scales.half_width)
     }

@@ -1,4 +1,4 @@
-//! Transient line contacts: inputs that vary in time, second-order time integration, three frames, and the resulting
+//! Transient contacts: inputs that vary in time, second-order time integration, three frames, and the resulting
 //! trajectory.
 //!
 //! [`march()`] advances any [`Marching`] model in time, independent of how a step is solved. [`solve`] does so with
@@ -14,6 +14,8 @@ mod march;
 mod mass;
 mod pace;
 mod response;
+#[cfg(test)]
+mod rough_tests;
 mod signal;
 mod space;
 mod spline;

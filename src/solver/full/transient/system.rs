@@ -91,6 +91,21 @@ impl<S: MarchSpace> FullMarch<S> {
         })
     }
 
+    /// Solves the steady contact with the given inputs and with the features where they are at T = 0. The inner error
+    /// says how the iteration ended if it did not converge.
+    ///
+    /// # Errors
+    /// [`SolveError`] if the contact is refused.
+    pub fn solve_start(
+        &mut self,
+        input: Input,
+        observer: &dyn Observer,
+    ) -> Result<Result<(Moment, State), Termination>, SolveError> {
+        let at = self.frame.conditions(&self.reference, 0.0, input)?;
+        let effort = self.rest(&at, observer);
+        Ok(effort.map(|effort| (self.moment(&at, 0.0, effort), self.state(&at))))
+    }
+
     /// Sets the coefficients of the rows for a step.
     fn set_rows(&mut self, step: &Step) {
         let Self { system, history, frame, characteristic, .. } = self;
@@ -147,9 +162,9 @@ impl<S: MarchSpace> FullMarch<S> {
     fn remember(&mut self) {
         let system = &self.system;
         self.fraction.clone_from(&system.fraction);
-        self.history.remember(&system.pressure, system.h_0, system.flow());
+        self.history.remember(&system.pressure, system.h_0, system.stored());
         if let Frame::Remeshed(interpolation) = self.frame {
-            self.history.remember_between(interpolation, system.space.grid().abscissae().0, system.flow());
+            self.history.remember_between(interpolation, system.space.grid().abscissae().0, system.stored());
         }
     }
 }
@@ -251,7 +266,8 @@ impl<S: MarchSpace> Marching for FullMarch<S> {
         if self.separation.is_some() {
             at.input = Input { load: self.system.carried_load() / self.reference.load, ..at.input };
         }
-        Moment::of_fields(&at, step, space.grid(), pressure, film, effort)
+        let moment = Moment::of_fields(&at, step, space.grid(), pressure, film, effort);
+        Moment { asperity_load_share: self.system.asperity_load_share(), ..moment }
     }
 
     fn state(&self, at: &Conditions) -> State {

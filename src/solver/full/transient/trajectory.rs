@@ -51,6 +51,8 @@ pub struct Moment {
     pub p_max: f64,
     /// Position of P_max.
     pub x_p_max: f64,
+    /// Share of the load that asperities carry; 0 for smooth surfaces.
+    pub asperity_load_share: f64,
     /// Work of the step.
     pub effort: Effort,
 }
@@ -116,6 +118,8 @@ pub enum Quantity {
     MaximumPressure,
     /// Load w̄ relative to the reference contact.
     Load,
+    /// Share of the load that asperities carry.
+    AsperityLoadShare,
 }
 
 /// Result of a transient simulation.
@@ -199,6 +203,7 @@ impl Moment {
             p_c: pressure * own.p_c,
             p_max: pressure * own.p_max,
             x_p_max: half_width * own.x_p_max,
+            asperity_load_share: 0.0,
             effort,
         }
     }
@@ -211,6 +216,7 @@ impl Moment {
             Quantity::CentralPressure => self.p_c,
             Quantity::MaximumPressure => self.p_max,
             Quantity::Load => self.input.load,
+            Quantity::AsperityLoadShare => self.asperity_load_share,
         }
     }
 }

@@ -21,9 +21,9 @@ pub enum Unsupported {
     /// Thermal contact.
     #[error("transient runs cover isothermal contacts only")]
     Heat,
-    /// Rough surfaces.
-    #[error("transient runs cover smooth surfaces only")]
-    Roughness,
+    /// Rough surfaces, by a reduced or linearised model.
+    #[error("transient models cover smooth surfaces only")]
+    RoughModel,
     /// Mass-conserving cavitation in a reduced or linearised model.
     #[error("transient models cover cavitation by the penalty and by complementarity, not mass-conserving cavitation")]
     MassConservingModel,
@@ -47,8 +47,6 @@ impl Unsupported {
             Err(Self::ShearThinning)
         } else if lubricant.heat.is_some() {
             Err(Self::Heat)
-        } else if lubricant.is_rough() {
-            Err(Self::Roughness)
         } else {
             Ok(())
         }
@@ -60,6 +58,7 @@ impl Unsupported {
     /// The reason why they do not.
     pub fn check_model(lubricant: &Lubricant) -> Result<(), Self> {
         match lubricant.cavitation {
+            _ if lubricant.is_rough() => Err(Self::RoughModel),
             Cavitation::Penalty | Cavitation::Complementarity => Ok(()),
             Cavitation::MassConserving { .. } => Err(Self::MassConservingModel),
         }

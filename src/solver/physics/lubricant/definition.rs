@@ -67,30 +67,11 @@ pub(crate) struct LubricantOfModel {
     roughness: Option<Roughness>,
 }
 
-/// Serialised form of the lubricant of a transient contact, which has smooth surfaces: `#[serde(with =
-/// "LubricantOfMarch")]`.
-#[derive(Serialize, Deserialize)]
-#[serde(remote = "Lubricant", deny_unknown_fields)]
-pub(crate) struct LubricantOfMarch {
-    density: DensityLaw,
-    viscosity: ViscosityLaw,
-    shear: ShearLaw,
-    limiting_stress: Option<LimitingStress>,
-    cavitation: Cavitation,
-    heat: Option<Heat>,
-    #[serde(skip)]
-    roughness: Option<Roughness>,
-}
-
 /// Law that is not supported together with rough surfaces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum RoughnessConflict {
     /// Cavitation other than by complementarity.
     Cavitation,
-    /// Temperatures.
-    Heat,
-    /// A shear-thinning law of the film.
-    Shear,
 }
 
 impl Lubricant {
@@ -190,12 +171,6 @@ impl Lubricant {
                 "rough surfaces need a flooded inlet and cavitation by complementarity; mass-conserving cavitation \
                  supports smooth surfaces only"
             }
-            Some(RoughnessConflict::Heat) => {
-                "rough surfaces are computed without heat only; leave out the heat or the roughness"
-            }
-            Some(RoughnessConflict::Shear) => {
-                "rough surfaces need a Newtonian lubricant; a limiting stress with an Eyring stress limits its traction"
-            }
         };
         Err(LubricantError(refused.to_owned()))
     }
@@ -206,8 +181,6 @@ impl Lubricant {
         match () {
             () if !self.is_rough() => None,
             () if self.cavitation != Cavitation::Complementarity => Some(RoughnessConflict::Cavitation),
-            () if self.heat.is_some() => Some(RoughnessConflict::Heat),
-            () if self.shear != ShearLaw::Newtonian => Some(RoughnessConflict::Shear),
             () => None,
         }
     }

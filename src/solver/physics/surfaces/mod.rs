@@ -8,6 +8,7 @@ mod asperity_table;
 mod finish;
 mod flow_factors;
 mod mean_gap;
+mod profile;
 mod roughness;
 mod scaled;
 #[cfg(test)]
@@ -18,5 +19,6 @@ pub use asperity_table::AsperityTable;
 pub use finish::{FINISHES, Finish, HeightMeasure};
 pub use flow_factors::{FlowFactors, PEKLENIK};
 pub use mean_gap::{mean_gap, separation_of_gap};
+pub use profile::{HeightProfile, ProfileError, ProfileStatistics};
 pub use roughness::{LARGEST_RMS, Roughness, SurfaceConstant, SurfaceError};
 pub use scaled::ScaledRoughness;
