@@ -39,6 +39,8 @@ const STATISTICS: [&str; 9] =
 const RESULTS: [&str; 7] = ["factor", names::H_C, names::H_MIN, "H_mean", "P_max", "X_P_max", names::NEWTON_ITERATIONS];
 /// Range of X over which the mean film thickness is computed.
 const MIDDLE: f64 = 0.5;
+/// Largest film thickness in charts, over the mean one of the smooth contact.
+const THICKEST: f64 = 5.0;
 /// Range of X shown in charts.
 const SHOWN: (f64, f64) = (-2.0, 1.5);
 /// Points per grid node at which a surface given by a formula is sampled.
@@ -287,8 +289,8 @@ impl Question for StationaryProfile {
         let mut pressures = Chart::new("Pressure", x(), ChartAxis::linear("P = p/p_H"));
         let mut films = Chart::new("Film", x(), ChartAxis::linear("h [µm]"));
         let mut heights = Chart::new("Undeformed surface", x(), ChartAxis::linear("z [µm]"));
-        let thickest = |row: &Row| 4.0 * row.scalars[2] * row.film_scale_m * 1e6;
-        films.y.ends = rows.first().map(|row| (0.0, thickest(row)));
+        // In front of the contact and behind it, the gap is many times as thick.
+        let thickest = rows.first().map_or(f64::INFINITY, |row| THICKEST * row.scalars[2]);
         // Rough curves are below the smooth one.
         for row in rows.iter().rev() {
             let name = match row.factor {
@@ -298,7 +300,8 @@ impl Question for StationaryProfile {
             };
             let shown = || row.profile.iter().filter(|[x, ..]| (SHOWN.0..=SHOWN.1).contains(x));
             pressures.add(&name, Marks::Line, shown().map(|&[x, _, p, _]| [x, p]));
-            films.add(&name, Marks::Line, shown().map(|&[x, .., h]| [x, h * row.film_scale_m * 1e6]));
+            let film = shown().filter(|[.., h]| *h <= thickest);
+            films.add(&name, Marks::Line, film.map(|&[x, .., h]| [x, h * row.film_scale_m * 1e6]));
             if row.factor > 0.0 {
                 heights.add(name, Marks::Line, shown().map(|&[x, z, ..]| [x, 1e6 * z]));
             }

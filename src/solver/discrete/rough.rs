@@ -220,7 +220,8 @@ impl RoughNode {
         // Below zero the laws are constant.
         let rises = f64::from(u8::from(film_pressure >= 0.0));
         let (density_slope, viscosity_slope) = (rises * state.density_slope, rises * state.log_viscosity_slope);
-        let (carried, carried_h) = rough.carried(film);
+        let ((gap, gap_h), (shear, shear_h)) = (rough.mean_gap(film), rough.shear_flow(film));
+        let (carried, carried_h) = (gap + shear, gap_h + shear_h);
         let per_cube = state.density / state.viscosity * inverse_lambda;
         let thins = density_slope / state.density - viscosity_slope;
         let node = |(cube, cube_h): (f64, f64)| Node {
@@ -233,9 +234,7 @@ impl RoughNode {
             mobility_h: per_cube * cube_h,
         };
         let across = rough.cube_across(film).map(node).unwrap_or_default();
-        let (gap, gap_h) = rough.mean_gap(film);
-        let sheared =
-            [state.density * (carried - gap), density_slope * (carried - gap), state.density * (carried_h - gap_h)];
+        let sheared = [state.density * shear, density_slope * shear, state.density * shear_h];
         Self { along: node(rough.cube(film)), across, asperities, sheared }
     }
 }
@@ -253,10 +252,10 @@ struct FilmBetween {
 
 impl FilmBetween {
     fn new(rough: &ScaledRoughness, film_pressure: f64, film: f64) -> Self {
-        let (gap, (carried, carried_h)) = (rough.mean_gap(film), rough.carried(film));
-        let ratio = carried / gap.0;
+        let (gap, (shear, shear_h)) = (rough.mean_gap(film), rough.shear_flow(film));
+        let extra = shear / gap.0;
         let rises = f64::from(u8::from(film_pressure >= 0.0));
-        Self { film_pressure, rises, gap, carried: (ratio, (carried_h - ratio * gap.1) / gap.0) }
+        Self { film_pressure, rises, gap, carried: (1.0 + extra, (shear_h - extra * gap.1) / gap.0) }
     }
 
     /// Returns a value over a power of the mean gap.

@@ -29,6 +29,8 @@ pub struct March {
     pub boundary: Vec<f64>,
     /// Contribution of these fluxes to the integrals of both surface temperatures.
     boundary_rise: Vec<f64>,
+    /// Pressure-driven flow at the stations over that of a smooth film; empty if the film is smooth.
+    pub flow_factor: Vec<f64>,
     /// Factor on that influence: the square root of the scale by which the abscissae were stretched.
     root: f64,
     /// Mobilities with which the pressure was computed.
@@ -168,6 +170,7 @@ impl March {
             flux: [vec![0.0; n], vec![0.0; n]],
             boundary: Vec::new(),
             boundary_rise: Vec::new(),
+            flow_factor: Vec::new(),
             mobility: vec![0.0; n],
             flow: vec![[0.0; POINTS]; n],
             across: vec![[0.0; POINTS - 1]; n],
@@ -247,8 +250,9 @@ impl March {
         if let Some(Aside { theta, flow, total }) = &mut aside {
             [theta, flow, total].into_iter().for_each(|list| list.clear());
         }
+        let factor = |i: usize| self.flow_factor.get(i).copied().unwrap_or(1.0);
         for (i, station) in self.stations.iter_mut().enumerate() {
-            course.place(i, 0.0).evaluate(station);
+            course.place(i, 0.0, factor(i)).evaluate(station);
             self.mobility[i] = station.flowing.mobility;
             self.flow[i] = up_to(&station.flowing.flow);
             if let Some(aside) = &mut aside {
@@ -262,6 +266,11 @@ impl March {
     /// Passes the new temperatures to the neighbouring lines.
     pub fn tell(&self, out: &mut Aside) {
         out.theta.iter_mut().zip(&self.stations).for_each(|(theta, station)| *theta = station.theta);
+    }
+
+    /// Returns the factor of the pressure-driven flow at a station; 1 for a smooth film.
+    fn factor(&self, i: usize) -> f64 {
+        self.flow_factor.get(i).copied().unwrap_or(1.0)
     }
 
     /// Computes the flow across the film from each point to the next.
@@ -295,6 +304,7 @@ impl March {
         if i == 0 {
             // Fluid that enters has the inlet temperature (θ = 0); fluid that leaves keeps its own.
             let next = self.stations[1.min(n - 1)].theta;
+            let place = course.place(0, self.mobility[0], self.factor(0));
             let own = &mut self.stations[0];
             own.theta = [0.0; POINTS];
             for (j, theta) in own.theta.iter_mut().enumerate().skip(1).take(POINTS - 2) {
@@ -302,7 +312,7 @@ impl March {
                     *theta = next[j];
                 }
             }
-            course.place(0, self.mobility[0]).evaluate(own);
+            place.evaluate(own);
             return;
         }
         let neighbours = Neighbours {
@@ -318,7 +328,7 @@ impl March {
                 (self.root * before + boundary, self.root * own)
             }),
         };
-        let place = course.place(i, self.mobility[i]);
+        let place = course.place(i, self.mobility[i], self.factor(i));
         let station = &mut self.stations[i];
         if station.theta == [0.0; POINTS] {
             station.theta = neighbours.sides[0].theta[0];
@@ -356,7 +366,8 @@ impl March {
         let conduction = course.laws.heat.conduction;
         let made: Vec<(f64, f64)> = (0..=last)
             .map(|i| {
-                let Made { sheared, compressed } = course.place(i, self.mobility[i]).made(&self.stations[i]);
+                let Made { sheared, compressed } =
+                    course.place(i, self.mobility[i], self.factor(i)).made(&self.stations[i]);
                 (inner(&ACROSS.weights, &sheared), inner(&ACROSS.weights, &compressed))
             })
             .collect();
@@ -403,8 +414,8 @@ impl<'a> Course<'a> {
         Course { states, ..*self }
     }
 
-    fn place(&self, i: usize, mobility: f64) -> Place<'a> {
-        Place { laws: self.laws, limit: self.limit, state: self.states[i], mobility }
+    fn place(&self, i: usize, mobility: f64, flow_factor: f64) -> Place<'a> {
+        Place { laws: self.laws, limit: self.limit, state: self.states[i], mobility, flow_factor }
     }
 }
 

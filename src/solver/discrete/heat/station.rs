@@ -122,6 +122,8 @@ pub struct Place<'a> {
     pub state: NodeState,
     /// Mobility with which P was computed; 0 to use the film's own.
     pub mobility: f64,
+    /// Pressure-driven flow over that of a smooth film: 1, or that of rough surfaces.
+    pub flow_factor: f64,
 }
 
 /// Flow of a film at given temperatures.
@@ -173,7 +175,7 @@ impl Place<'_> {
         };
         let law: Option<&StressLaw> = self.laws.shear.as_ref();
         let factor = if law.is_none() { self.factor(mobility(&fluid.fluidity)) } else { factor };
-        let per = |gradient: f64| heat.gradient * film * gradient * factor;
+        let per = |gradient: f64| heat.gradient * film * gradient * factor * self.flow_factor;
         let drive = Drive { along: per(gradient), aside: per(gradient_y), rate: self.laws.slip() / film };
         let (stress, sheared) = Sheared::sliding(law, &fluid.fluidity, (&offsets, &across.weights), drive, stress);
         let rates: Profile = std::array::from_fn(|i| film * sheared.stress[i] * sheared.fluidity[i]);
@@ -396,7 +398,7 @@ mod tests {
         let problem = Problem::new(&point, lubricant).unwrap();
         let laws = problem.warm_laws().unwrap();
         let state = NodeState { pressure: 0.2, gradient: [0.0; 2], film: 0.1 };
-        let place = Place { laws, limit: None, state, mobility: 0.0 };
+        let place = Place { laws, limit: None, state, mobility: 0.0, flow_factor: 1.0 };
         let [d_1, d_2] = laws.heat.surfaces;
         let neighbours = Neighbours {
             sides: [Side::default(); 2],

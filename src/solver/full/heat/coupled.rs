@@ -80,7 +80,7 @@ impl Coupled {
     }
 
     /// Copies P, its gradient and H of the system to the stations. Between rough surfaces these are the pressure of the
-    /// film and the mean gap, with the gradient that drives the same flow through it. The friction of the asperities heats both surfaces alike.
+    /// film and the mean gap. The friction of the asperities heats both surfaces alike.
     pub fn look<S: NewtonSpace>(&mut self, system: &System<S>, problem: &Problem) {
         let (x, _) = system.space.grid().abscissae();
         let Self { columns, lines, gradient } = self;
@@ -98,15 +98,14 @@ impl Coupled {
                     // The node outside the inlet carries no information on the pressure.
                     slopes[0] = one_sided(&x[column..], [0, 1, 2].map(|k| pressure[node + k * ny]));
                 }
-                if let Some(fields) = &rough {
-                    slopes = slopes.map(|slope| fields.flow_factor[node] * slope);
-                }
                 *state = NodeState { pressure: pressure[node], gradient: slopes, film: film[node] };
             }
             if let Some((fields, per_pressure)) = rough.as_ref().zip(problem.boundary_flux()) {
                 line.march.boundary.clear();
                 let carried = columns.iter().map(|column| fields.asperities[column * ny + j]);
                 line.march.boundary.extend(carried.map(|carried| per_pressure * carried));
+                line.march.flow_factor.clear();
+                line.march.flow_factor.extend(columns.iter().map(|column| fields.flow_factor[column * ny + j]));
             }
         }
     }

@@ -76,16 +76,14 @@ impl ScaledRoughness {
         (self.sigma * gap, slope)
     }
 
-    /// Returns the flow that both surfaces carry, per density, and its derivative by H: the mean gap, and the shear
-    /// flow of unequal roughness.
+    /// Returns the shear flow of unequal roughness, per density, and its derivative by H.
     #[inline]
-    pub fn carried(&self, film: f64) -> (f64, f64) {
-        let (gap, slope) = self.mean_gap(film);
+    pub fn shear_flow(&self, film: f64) -> (f64, f64) {
         if self.shear == 0.0 {
-            return (gap, slope);
+            return (0.0, 0.0);
         }
         let (flow, rate) = self.along.shear(film / self.sigma);
-        (gap + self.shear * self.sigma * flow, slope + self.shear * rate)
+        (self.shear * self.sigma * flow, self.shear * rate)
     }
 
     /// Returns the cube of the film thickness times the pressure flow factor along X, and its derivative by H.
