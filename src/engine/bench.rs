@@ -53,7 +53,7 @@ const REDUCED_SHEAR_POINTS: [usize; 2] = [1000, 150];
 const CURVES: [usize; 2] = [50, 8];
 /// Number of point contacts, and time after which no further solve is started.
 const POINT_POINTS: [usize; 2] = [50, 4];
-const POINT_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_millis(400)];
+const POINT_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_millis(700)];
 /// Training of the trajectory-piecewise-linear model of the same march.
 const TPWL_TRAINING: TpwlTraining = TpwlTraining { modes: 100, selection: Selection::Step { tolerance: 1e-3 } };
 /// Local bases for the march: number of bases, and modes per basis.
