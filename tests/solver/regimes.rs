@@ -81,12 +81,12 @@ fn line_contacts_have_the_regime_of_their_solution() {
 
 #[test]
 fn circular_contacts_have_the_regime_of_their_solution() {
-    check(cases(6, 200), 72, |_, m, l| si_from_moes(&MoesRequest::new(ContactKind::Point, m, l)).unwrap());
+    check(cases(12, 200), 72, |_, m, l| si_from_moes(&MoesRequest::new(ContactKind::Point, m, l)).unwrap());
 }
 
 #[test]
 fn elliptical_contacts_have_the_regime_of_their_solution() {
-    check(cases(6, 200), 73, |rng, m, l| {
+    check(cases(12, 200), 73, |rng, m, l| {
         let circle = si_from_moes(&MoesRequest::new(ContactKind::Point, m, l)).unwrap();
         let ratio = 0.2 * 75f64.powf(rng.f64());
         OperatingPoint { radius_y_m: Some(ratio * circle.radius_m), ..circle }

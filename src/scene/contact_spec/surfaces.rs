@@ -2,7 +2,7 @@
 
 use super::fields::{ContactSpec, Field};
 use super::refusal::{Refusal, refuse};
-use crate::solver::physics::lubricant::{Lubricant, RoughnessConflict};
+use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::physics::surfaces::{Roughness, SurfaceConstant};
 
 /// Fields that have no effect on smooth surfaces.
@@ -48,12 +48,12 @@ impl ContactSpec {
                 "rough surfaces need a flooded inlet; leave out <supply-film> or <roughness>",
             );
         }
-        let (field, sentence) = match lubricant.conflict_with_roughness() {
-            None => return Ok(()),
-            Some(RoughnessConflict::Cavitation) => {
-                (Field::Cavitation, "rough surfaces need <cavitation=complementarity>; leave <cavitation> out")
-            }
-        };
-        refuse(field, sentence)
+        if lubricant.lacks_complementarity() {
+            return refuse(
+                Field::Cavitation,
+                "rough surfaces need <cavitation=complementarity>; leave <cavitation> out",
+            );
+        }
+        Ok(())
     }
 }

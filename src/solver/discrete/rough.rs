@@ -151,11 +151,11 @@ impl RoughNodes {
         for (k, node) in own.iter_mut().enumerate() {
             let between = FilmBetween::new(laws.rough, film_pressure(k, node), film[k]);
             let smooth = nodes[k];
-            let across = laws.rough.cube_across(film[k]);
+            let (along, across) = (laws.rough.cube(film[k]), laws.rough.cube_across(film[k]));
             node.across = across.map(|cube| between.node(&smooth, cube)).unwrap_or_default();
-            node.along = between.node(&smooth, laws.rough.cube(film[k]));
+            node.along = between.node(&smooth, along);
             node.sheared = between.sheared(&smooth);
-            nodes.replace(k, node.along, (between.per_gap(laws.rough.cube(film[k]).0, 3), between.carried.0));
+            nodes.replace(k, node.along, (between.per_gap(along.0, 3), between.carried.0));
         }
     }
 

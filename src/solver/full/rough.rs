@@ -86,10 +86,9 @@ impl<S: NewtonSpace> System<S> {
         let carried = |(film, weight): (&f64, &f64)| Asperities::at(&rough, nodes.table(), *film, *weight).pressure;
         let asperities: Vec<f64> = self.film.iter().zip(weights).map(carried).collect();
         let pressure = self.pressure.iter().zip(&asperities).map(|(total, carried)| (total - carried).max(0.0));
-        let gap = self.film.iter().map(|film| rough.mean_gap(*film).0);
-        let flow_factor = self.film.iter().map(|film| rough.cube(*film).0 / rough.mean_gap(*film).0.powi(3));
-        let (mut pressure, gap, flow_factor): (Vec<f64>, _, _) =
-            (pressure.collect(), gap.collect(), flow_factor.collect());
+        let mut pressure: Vec<f64> = pressure.collect();
+        let gap: Vec<f64> = self.film.iter().map(|film| rough.mean_gap(*film).0).collect();
+        let flow_factor = self.film.iter().zip(&gap).map(|(film, gap)| rough.cube(*film).0 / gap.powi(3)).collect();
         // In the cavitated set the difference is rounding.
         for (k, _) in self.active.ruptured.iter().enumerate().filter(|(_, ruptured)| **ruptured) {
             pressure[self.space.grid().node(k)] = 0.0;

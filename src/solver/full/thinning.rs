@@ -50,7 +50,7 @@ impl Thinning {
     }
 
     /// Does the same for rough surfaces, whose film pressure changes by that of P minus that of the asperity pressure.
-    /// `film` is the change of the film thickness as deformation and ΔH₀.
+    /// The film thickness changes by a deformation and a shift ΔH₀.
     pub fn turn_rough<S: Space>(&mut self, v: &[f64], (deformation, shift): (&[f64], f64), rough: &RoughNodes) {
         self.film_pressure.clear();
         let change = |(node, (p, d)): (usize, (&f64, &f64))| {

@@ -250,9 +250,10 @@ impl March {
         if let Some(Aside { theta, flow, total }) = &mut aside {
             [theta, flow, total].into_iter().for_each(|list| list.clear());
         }
-        let factor = |i: usize| self.flow_factor.get(i).copied().unwrap_or(1.0);
-        for (i, station) in self.stations.iter_mut().enumerate() {
-            course.place(i, 0.0, factor(i)).evaluate(station);
+        for i in 0..self.stations.len() {
+            let place = course.place(i, 0.0, self.factor(i));
+            let station = &mut self.stations[i];
+            place.evaluate(station);
             self.mobility[i] = station.flowing.mobility;
             self.flow[i] = up_to(&station.flowing.flow);
             if let Some(aside) = &mut aside {

@@ -66,15 +66,14 @@ struct Film<'a> {
 
 impl<'a> Film<'a> {
     fn new(x: &'a [f64], state: &'a State, at: &'a Conditions) -> Self {
-        let mut nodes = Nodes::of(at.problem.laws(), &PlaneGradient::along_line(x), &state.pressure, &state.film);
-        let mut stored: Vec<f64> = nodes.iter().map(|node| node.flow).collect();
-        if let Some(laws) = at.problem.rough_laws() {
-            let weights = vec![1.0; x.len()];
-            let mut rough = RoughNodes::new(laws.rough, x.len());
-            rough.evaluate(laws, (&state.pressure, &state.film), &weights, &mut nodes, false);
-            stored = rough.stored().collect();
-        }
-        Self { x, nodes, stored, at }
+        let Some(laws) = at.problem.rough_laws() else {
+            let gradient = PlaneGradient::along_line(x);
+            let nodes = Nodes::of(at.problem.laws(), &gradient, &state.pressure, &state.film);
+            return Self { x, stored: nodes.iter().map(|node| node.flow).collect(), nodes, at };
+        };
+        let (mut nodes, mut rough) = (Nodes::new(x.len(), false), RoughNodes::new(laws.rough, x.len()));
+        rough.evaluate(laws, (&state.pressure, &state.film), &vec![1.0; x.len()], &mut nodes, false);
+        Self { x, nodes, stored: rough.stored().collect(), at }
     }
 
     /// Returns a nodal quantity at a place given in units of a_ref; `None` outside the domain.

@@ -67,13 +67,6 @@ pub(crate) struct LubricantOfModel {
     roughness: Option<Roughness>,
 }
 
-/// Law that is not supported together with rough surfaces.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum RoughnessConflict {
-    /// Cavitation other than by complementarity.
-    Cavitation,
-}
-
 impl Lubricant {
     /// Computes the constants of the laws at an operating point.
     ///
@@ -160,14 +153,12 @@ impl Lubricant {
         self.limiting_stress.iter().try_for_each(LimitingStress::check)
     }
 
-    /// Refuses laws that are not supported together with rough surfaces.
+    /// Refuses cavitation models that are not supported together with rough surfaces.
     fn check_with_roughness(&self) -> Result<(), LubricantError> {
-        let refused = match self.conflict_with_roughness() {
-            None => return Ok(()),
-            Some(RoughnessConflict::Cavitation) if self.cavitation == Cavitation::Penalty => {
-                "rough surfaces need the cavitation model complementarity, not penalty"
-            }
-            Some(RoughnessConflict::Cavitation) => {
+        let refused = match self.cavitation {
+            _ if !self.lacks_complementarity() => return Ok(()),
+            Cavitation::Penalty => "rough surfaces need the cavitation model complementarity, not penalty",
+            _ => {
                 "rough surfaces need a flooded inlet and cavitation by complementarity; mass-conserving cavitation \
                  supports smooth surfaces only"
             }
@@ -175,14 +166,9 @@ impl Lubricant {
         Err(LubricantError(refused.to_owned()))
     }
 
-    /// Returns the first law that is not supported together with the roughness. `None` if all are, and for smooth
-    /// surfaces.
-    pub(crate) fn conflict_with_roughness(&self) -> Option<RoughnessConflict> {
-        match () {
-            () if !self.is_rough() => None,
-            () if self.cavitation != Cavitation::Complementarity => Some(RoughnessConflict::Cavitation),
-            () => None,
-        }
+    /// Returns true for rough surfaces with another cavitation model than complementarity.
+    pub(crate) fn lacks_complementarity(&self) -> bool {
+        self.is_rough() && self.cavitation != Cavitation::Complementarity
     }
 
     /// Returns true if the surfaces are rough.

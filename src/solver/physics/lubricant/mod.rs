@@ -22,7 +22,7 @@ mod words;
 pub use super::contact::Sliding;
 pub use cavitation::Cavitation;
 pub use definition::Lubricant;
-pub(crate) use definition::{LubricantOfModel, RoughnessConflict, WholeLubricant};
+pub(crate) use definition::{LubricantOfModel, WholeLubricant};
 pub use error::LubricantError;
 pub use free_volume::{Doolittle, Tait};
 pub use heat::{FreeVolumeHeat, Heat, LARGEST_HEATED_SRR, OilHeat, ScaledHeat};
