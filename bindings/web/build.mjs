@@ -1,12 +1,14 @@
-// Builds the page: `node build.mjs PKG MODELS OUT` reads the output of wasm-bindgen and the model files. It writes the
-// static folder, with a hash in the name of each large file, .br and .gz next to every file, and `first-picture.txt`.
+// Builds the page: `node build.mjs PKG MODELS OUT ZOPFLI` reads the output of wasm-bindgen and the model files. It writes
+// the static folder, with a hash in the name of each large file, .br and .gz next to every file, and `first-picture.txt`.
+// ZOPFLI is the program that compresses the module, which takes a minute.
+import { execFileSync } from "node:child_process";
 import { createHash } from "node:crypto";
 import { cpSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { basename, dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { brotliCompressSync, constants, gzipSync } from "node:zlib";
 
-const [pkg, models, out] = process.argv.slice(2);
+const [pkg, models, out, zopfli] = process.argv.slice(2);
 const page = join(dirname(fileURLToPath(import.meta.url)), "page");
 rmSync(out, { recursive: true, force: true });
 mkdirSync(out, { recursive: true });
@@ -40,9 +42,10 @@ for (const file of readdirSync(out)) {
   const content = readFileSync(join(out, file));
   const params = { [constants.BROTLI_PARAM_QUALITY]: 11, [constants.BROTLI_PARAM_LGWIN]: 24, [constants.BROTLI_PARAM_SIZE_HINT]: content.length };
   const br = brotliCompressSync(content, { params });
-  const gz = gzipSync(content, { level: 9 });
   writeFileSync(join(out, `${file}.br`), br);
-  writeFileSync(join(out, `${file}.gz`), gz);
+  if (file === MODULE.file) execFileSync(zopfli, [join(out, file)]);
+  else writeFileSync(join(out, `${file}.gz`), gzipSync(content, { level: 9 }));
+  const gz = readFileSync(join(out, `${file}.gz`));
   sizes[file] = { plain: content.length, br: br.length, gz: gz.length };
 }
 const total = (kind) => first.reduce((sum, file) => sum + sizes[file][kind], 0);

@@ -1,11 +1,12 @@
 //! Command `export`: writes a reduced model for other programs.
 
 use super::failure::Failure;
+use super::model_argument::model_of;
 use super::output;
 use super::verdict::Verdict;
+use crate::engine::SavedModel;
 use crate::engine::coupled::fmu::FmiVersion;
 use crate::engine::coupled::{Pressed, fmu};
-use crate::engine::{EngineError, SavedModel, bytes_of};
 use crate::scene::atomic_file;
 use crate::scene::named_lubricant::{NamedLubricant, by_name};
 use crate::solver::physics::lubricant::Lubricant;
@@ -36,7 +37,7 @@ pub struct FmuArgs {
     /// Load as input (default)
     #[arg(long, conflicts_with = "approach")]
     load: bool,
-    /// Approach of the bodies as input and load as output (point contacts)
+    /// Approach of the bodies as input and load as output
     #[arg(long)]
     approach: bool,
     /// Lubricant of the simulation; refused if the model was trained with another one
@@ -73,15 +74,6 @@ pub fn run(command: &ExportCommand) -> Result<Verdict, Failure> {
     let megabytes = archive.len() as f64 / 1e6;
     output::print(&format!("{}: {megabytes:.1} MB, for {}\n", args.out.display(), fmu::library_place(args.version)))?;
     Ok(Verdict::Done)
-}
-
-/// Reads a model from a file, or an embedded model by its name. Also returns the content of its file.
-fn model_of(path: &Path) -> Result<(SavedModel, Vec<u8>), Failure> {
-    let read = match path.to_str().and_then(bytes_of).filter(|_| !path.exists()) {
-        Some(content) => SavedModel::from_bytes(&content).map(|model| (model, content.to_vec())),
-        None => SavedModel::read_with_content(path),
-    };
-    Ok(read.map_err(|reason| EngineError::Model { path: path.to_owned(), reason: reason.into() })?)
 }
 
 /// Returns the paths where the solver library is searched: next to the program, and where packages install it.

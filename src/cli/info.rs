@@ -1,10 +1,11 @@
 //! Command `info`: contents of a reduced model.
 
 use super::failure::Failure;
+use super::model_argument::model_of;
 use super::output::{self, ProgressLine};
 use super::verdict::Verdict;
 use crate::engine::arrays::npz;
-use crate::engine::{EngineError, SavedModel, model_arrays, model_snapshots, model_text};
+use crate::engine::{SavedModel, model_arrays, model_snapshots, model_text};
 use crate::scene::atomic_file;
 use clap::Args;
 use std::path::PathBuf;
@@ -12,9 +13,9 @@ use std::path::PathBuf;
 /// Options of `info`.
 #[derive(Debug, Args)]
 pub struct InfoArgs {
-    /// Reduced model
-    #[arg(value_name = "FILE.rom")]
-    file: PathBuf,
+    /// Reduced model: a file, or the name of an embedded model, such as line or point
+    #[arg(value_name = "MODEL.rom")]
+    model: PathBuf,
     /// Write its bases, sampled equations and snapshots as arrays for numpy
     #[arg(long, value_name = "FILE.npz")]
     arrays: Option<PathBuf>,
@@ -32,9 +33,7 @@ const TRANSIENT: &str = "a transient model was trained from the steps of marches
 
 /// Runs the command.
 pub fn run(args: &InfoArgs) -> Result<Verdict, Failure> {
-    let path = &args.file;
-    let model =
-        SavedModel::read(path).map_err(|reason| EngineError::Model { path: path.clone(), reason: reason.into() })?;
+    let (model, _) = model_of(&args.model)?;
     let (mut holds, text) = match &model {
         SavedModel::Stationary(model) => (model_arrays::of_model(model), model_text::describe(model)),
         SavedModel::InTime(model) => (model_arrays::of_trajectories(model), model_text::describe_in_time(model)),

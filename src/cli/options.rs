@@ -8,7 +8,7 @@ use clap::parser::ValueSource;
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, Error, FromArgMatches, value_parser};
 use std::path::PathBuf;
 
-/// Contact and solution method, in SI units.
+/// Contact and solution method. Numbers without a unit are in SI units.
 #[derive(Clone, Debug)]
 pub struct PointOptions(pub ContactSpec);
 
@@ -60,7 +60,9 @@ impl Args for PointOptions {
 impl FromArgMatches for PointOptions {
     fn from_arg_matches(matches: &ArgMatches) -> Result<Self, Error> {
         let mut spec = ContactSpec { rom: matches.get_one(Field::Rom.facts().name).cloned(), ..ContactSpec::default() };
-        for field in Field::of(Words::Flags).filter(|field| *field != Field::Rom) {
+        let mut fields: Vec<Field> = Field::of(Words::Flags).filter(|field| *field != Field::Rom).collect();
+        fields.sort_by_key(|field| field.reading_order());
+        for field in fields {
             let name = field.facts().name;
             let text = match field.is_switch() {
                 true => matches.get_flag(name).then_some("yes"),
@@ -70,7 +72,7 @@ impl FromArgMatches for PointOptions {
             };
             let refused =
                 |why: crate::scene::Refusal| Error::raw(ErrorKind::ValueValidation, why.in_words(Words::Flags));
-            text.map_or(Ok(()), |text| spec.read_si(field, text)).map_err(refused)?;
+            text.map_or(Ok(()), |text| spec.read(field, text, "")).map_err(refused)?;
         }
         Ok(Self(spec))
     }

@@ -34,7 +34,7 @@ pub fn run(args: &TrainArgs) -> Result<Verdict, Failure> {
     let mut scene = Scene::read(&args.scene)?;
     if let Some(word) = &args.cavitation {
         let mut stated = ContactSpec::default();
-        stated.read_si(Field::Cavitation, word)?;
+        stated.read(Field::Cavitation, word, "")?;
         scene.cavitation = stated.cavitation.unwrap_or_default();
     }
     if scene.trains_in_time() {

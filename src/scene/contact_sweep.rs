@@ -152,7 +152,7 @@ impl ContactSweep {
         }
         let point = |values: Vec<f64>| {
             let mut contact = contact.clone();
-            varied.iter().zip(&values).for_each(|(axis, value)| contact.set(axis.field, *value));
+            varied.iter().zip(&values).for_each(|(axis, value)| contact.set_as_typed(axis.field, *value));
             (values, contact.request())
         };
         let tuples = Steps::combinations(varied.iter().map(|axis| &axis.steps));

@@ -3,7 +3,10 @@
 
 use super::table::significant;
 use crate::solver::full::Solution;
-use crate::solver::physics::contact::{ContactKind, FilmShape, Moes, OperatingPoint};
+use crate::solver::physics::contact::{
+    ContactKind, DEFAULT_VISCOSITY_PA_S, FilmShape, Moes, MoesRequest, OperatingPoint,
+};
+use crate::solver::physics::lubricant::{ROELANDS_PRESSURE_PA, roelands_exponent};
 use std::f64::consts::PI;
 
 /// Lubrication regime.
@@ -122,7 +125,7 @@ fn whole(value: f64) -> String {
 }
 
 /// Estimate of the ratios everywhere on the chart of M and L, for contacts of one shape. It holds for fully flooded,
-/// isothermal contacts with an oil of Roelands' law.
+/// isothermal contacts with an oil of Roelands' law whose α is that of the default realisation of M and L.
 #[derive(Clone, Copy, Debug)]
 pub struct RegimeMap {
     shape: FilmShape,
@@ -150,24 +153,28 @@ impl RegimeMap {
     /// Returns the estimated ratios at M and L.
     pub fn at(&self, moes: Moes) -> Ratios {
         let Moes { m, l } = moes;
-        // H_c in units of a²/R, and α p_H.
-        let (film, hertz) = match self.shape {
-            FilmShape::Line => (PI / (8.0 * m), l * (m / (2.0 * PI)).sqrt()),
+        // (H_c in units of a²/R) / Ĥ_c, and α p_H.
+        let (kind, unit, hertz) = match self.shape {
+            FilmShape::Line => (ContactKind::Line, PI / (8.0 * m), l * (m / (2.0 * PI)).sqrt()),
             FilmShape::Ellipse(_) => {
                 let circle = (1.5 * m).cbrt();
-                (self.film / circle.powi(2), self.pressure * l * circle / PI)
+                (ContactKind::Point, self.film / circle.powi(2), self.pressure * l * circle / PI)
             }
         };
-        let film = film * self.shape.film(moes);
+        let film = unit * self.shape.film(moes);
         // A thick film spreads the pressure beyond the Hertzian contact, less so if the viscosity rises.
         let spread = film / (1.0 + 0.4 * hertz);
+        // Below the pressure that doubles the viscosity, the pressure is about that of the isoviscous film.
+        let isoviscous = unit * self.shape.film(Moes { m, l: 0.0 });
         let (flattening, pressure) = match self.shape {
-            FilmShape::Line => (0.5 * (-0.65 * spread).exp(), (1.0 + 0.7 * film).powf(-0.5)),
+            FilmShape::Line => (0.5 * (-0.65 * spread).exp(), (1.0 + 0.7 * isoviscous).powf(-0.5)),
             FilmShape::Ellipse(_) => {
-                (0.5 * (-1.1 * spread).exp(), (1.0 + 0.4 * film + 3.4 * film * film / (1.0 + film)).recip())
+                let thick = 3.4 * isoviscous * isoviscous / (1.0 + isoviscous);
+                (0.5 * (-1.1 * spread).exp(), (1.0 + 0.4 * isoviscous + thick).recip())
             }
         };
-        Ratios { deformation: flattening / (COMPRESSED * film), viscosity: (ROELANDS * hertz * pressure).exp() }
+        let alpha = MoesRequest::new(kind, m, l).default_alpha();
+        Ratios { deformation: flattening / (COMPRESSED * film), viscosity: roelands(hertz * pressure, alpha) }
     }
 
     /// Returns the regime at M and L.
@@ -178,5 +185,17 @@ impl RegimeMap {
 
 /// Film thickness of compressible oils over that of Moes' formula.
 const COMPRESSED: f64 = 0.92;
-/// ln(η/η₀) of Roelands' law over α p at the pressures that double the viscosity of oils.
-const ROELANDS: f64 = 0.62;
+
+/// Returns η/η₀ by Roelands' law at α p, for α \[1/Pa\] and the viscosity of the default realisation.
+fn roelands(alpha_pressure: f64, alpha: f64) -> f64 {
+    if alpha == 0.0 {
+        return 1.0;
+    }
+    let z = roelands_exponent(&OperatingPoint {
+        alpha_per_pa: alpha,
+        viscosity_pa_s: DEFAULT_VISCOSITY_PA_S,
+        ..OperatingPoint::TABLE_2_1
+    });
+    let reference = alpha * ROELANDS_PRESSURE_PA;
+    (reference / z * ((1.0 + alpha_pressure / reference).powf(z) - 1.0)).exp()
+}

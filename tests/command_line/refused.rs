@@ -17,9 +17,13 @@ fn bad_points_are_refused_with_one_sentence() {
             assert_refused(&arguments, option.trim_start_matches('-'));
         }
         assert_refused(&["solve", "--moes-m", "40", "--moes-l", "10", "--viscosity", bad], "viscosity");
-        assert_refused(&["solve", "--moes-m", bad, "--moes-l", "10"], "Moes number M");
+        let (of_m, of_l) = match bad {
+            "nan" | "inf" => ("--moes-m <MOES_M>': “", "is no number"),
+            _ => ("Moes number M", "Moes number L"),
+        };
+        assert_refused(&["solve", "--moes-m", bad, "--moes-l", "10"], of_m);
         if bad != "0" {
-            assert_refused(&["solve", "--moes-m", "10", "--moes-l", bad], "Moes number L");
+            assert_refused(&["solve", "--moes-m", "10", "--moes-l", bad], of_l);
         }
     }
 }
@@ -29,7 +33,15 @@ fn bad_options_are_refused_with_one_sentence() {
     let moes = ["solve", "--moes-m", "40", "--moes-l", "10"];
     for (more, words) in [
         (&["--contact", "point", "--dx", "0.5"][..], "hold the contact"),
-        (&["--contact", "point", "--dy", "nan"], "ΔY"),
+        (&["--contact", "point", "--dy", "nan"], "“nan” is no number; write it like 0.125"),
+        (&["--contact", "point", "--dy", "0"], "ΔY"),
+        (&["--u1", "100 rpm", "--u2", "1"], "needs the radius of the body"),
+        (&["--viscosity", "1 mm"], "no unit of a viscosity"),
+        (&["--oil", "ISO VG 68"], "needs a temperature"),
+        (
+            &["--oil", "68", "--temperature", "60", "--heat", "--inlet-temperature", "300"],
+            "leave out --inlet-temperature",
+        ),
         (&["--contact", "point", "--dx", "0.001", "--dy", "0.001"], "GB of memory"),
         (&["--contact", "point", "--domain=-4,0.5,-2"], "cuts the contact"),
         (&["--contact", "point", "--domain=-4,2,-0.5"], "cuts the contact"),
@@ -63,7 +75,7 @@ fn bad_options_are_refused_with_one_sentence() {
         (&["--domain=-1,2"], "domain"),
         (&["--domain=nan,2"], "domain"),
         (&["--dx", "0"], "nodes"),
-        (&["--dx", "nan"], "nodes"),
+        (&["--dx", "nan"], "no number"),
         (&["--dx", "1e-9"], "nodes"),
         (&["--grid", "graded", "--dx", "0.01"], "--dx"),
         (&["--grid", "hexagonal"], "uniform"),

@@ -76,7 +76,7 @@ fn martin() -> f64 {
 fn a_light_line_contact_has_martins_film() {
     let known = martin();
     assert!((known - 2.4475).abs() < 1e-3, "{known}");
-    for m in [1e-3, 0.01, 0.1] {
+    for m in [1e-4, 1e-3, 0.01, 0.1] {
         let solution = solved(&contact(ContactKind::Line, m, 0.0), INCOMPRESSIBLE);
         // H is in a²/R = (8M/π) √(2U) R. Martin's film thickness is the minimum.
         let film = solution.scalars.h_min * 8.0 * m / PI * m;

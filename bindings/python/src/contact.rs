@@ -19,7 +19,8 @@ use std::sync::Arc;
 /// its ``temperature`` in place of viscosity and alpha.
 ///
 /// ``Contact(moes_m=40, moes_l=10)``, ``Contact(radius=0.0225, speed=5.04, load=646e3, modulus=287.8e9, viscosity=4e-3,
-/// alpha=22e-9)``. Numbers are in SI units; texts may have a unit, as in ``radius="12 mm"``. Use ``contact="point"``
+/// alpha=22e-9)``. Numbers are in SI units, but the temperature of
+/// an oil is in °C; texts may have a unit, as in ``radius="12 mm"``. Use ``contact="point"``
 /// for circular and elliptical contacts. The contact is checked when it is created, and is immutable. Contacts are
 /// equal if their requests are. They can be pickled and used as dictionary keys.
 #[pyclass(frozen, module = "ehl_explorer")]
@@ -43,7 +44,7 @@ fn state(spec: &mut ContactSpec, field: Field, value: &Bound<'_, PyAny>) -> PyRe
         value.extract::<String>()?
     } else if let Ok(number) = value.extract::<f64>() {
         if field.is_number() {
-            spec.set(field, number);
+            spec.set_as_typed(field, number);
             return Ok(());
         }
         number.to_string()
@@ -99,8 +100,7 @@ impl Contact {
                 given.push((field, unchangeable(field, value)?));
             }
         }
-        // The contact kind is the first field and must be read first, because the unit of a load depends on it.
-        given.sort_by_key(|(field, _)| *field);
+        given.sort_by_key(|(field, _)| field.reading_order());
         let mut spec = ContactSpec::default();
         given.iter().try_for_each(|(field, value)| state(&mut spec, *field, value))?;
         for (field, _) in &given {

@@ -21,7 +21,7 @@ const CHUNK: usize = 128;
 fn varied(contact: &ContactSpec, columns: &[(Field, &[f64])], k: usize) -> ContactSpec {
     let mut own = contact.clone();
     for (field, values) in columns {
-        own.set(*field, values.get(k).copied().unwrap_or(f64::NAN));
+        own.set_as_typed(*field, values.get(k).copied().unwrap_or(f64::NAN));
     }
     own
 }

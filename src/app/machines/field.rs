@@ -1,4 +1,5 @@
-//! Number of a machine that can be typed, with its unit.
+//! Editable row for one numerical parameter of a rolling bearing, gear pair or cam, with conversion between the unit on
+//! the screen and the unit in which the machine stores it.
 
 use crate::app::controls::{Entries, row_name, typed_field};
 use crate::app::theme::name_and_symbol;
@@ -7,21 +8,25 @@ use crate::solver::physics::engineering::{self, Dimension, QuantityKind};
 use egui::Ui;
 use std::f64::consts::PI;
 
-/// Number of a machine that can be typed.
+/// Numerical parameter of a machine of type `M`, as an editable row.
 pub(super) struct Field<M> {
     /// Accessible name.
     pub name: &'static str,
     /// Name of the row with its symbol and subscript.
     pub row: (&'static str, &'static str, &'static str),
+    /// Kind of quantity and storage unit.
     pub stored: Stored,
+    /// Tooltip.
     pub tip: &'static str,
+    /// Returns the physical dimension, which determines the units that may be typed.
     pub dimension: fn(&M) -> Dimension,
     /// Returns the value as the machine stores it; `None` if the machine has no such value.
     pub get: fn(&M) -> Option<f64>,
+    /// Stores a value in the unit of the machine.
     pub set: fn(&mut M, f64),
 }
 
-/// Kind of a value, and the size in SI units of the unit in which the machine stores it.
+/// Kind of quantity, and size of one storage unit in SI units.
 pub(super) type Stored = (QuantityKind, f64);
 
 pub(super) const LENGTH: Stored = (QuantityKind::Length, 1.0);
@@ -32,7 +37,7 @@ pub(super) const FORCE: Stored = (QuantityKind::Force, 1.0);
 pub(super) const NUMBER: Stored = (QuantityKind::Number, 1.0);
 
 impl<M> Field<M> {
-    /// Draws the value if the machine has it, and sets what was typed.
+    /// Draws the row if the machine has the value, and stores a typed value.
     pub fn ui(&self, ui: &mut Ui, machine: &mut M, entries: &mut Entries) {
         let Some(value) = (self.get)(machine) else { return };
         let ((kind, stored), dimension) = (self.stored, (self.dimension)(machine));
@@ -40,7 +45,7 @@ impl<M> Field<M> {
         ui.horizontal(|ui| {
             let (word, symbol, index) = self.row;
             row_name(ui, name_and_symbol(ui, word, symbol, index), self.tip);
-            // A plane has no radius. It is shown and typed as infinite.
+            // The radius of a plane is entered and shown as infinite.
             let read = |text: &str| match text.trim().to_lowercase().as_str() {
                 "plane" | "none" | "∞" | "inf" if dimension == Dimension::Length => Ok(f64::INFINITY),
                 _ => Ok(unit.number(engineering::parse(text, dimension, unit.name)?)),
@@ -55,7 +60,7 @@ impl<M> Field<M> {
     }
 }
 
-/// Returns a typed whole number. Texts without sense become 0, which the machine refuses.
+/// Rounds a typed number. Negative numbers and NaN become 0, which the machine refuses.
 pub(super) fn whole(value: f64) -> u32 {
     // A cast of a float saturates.
     value.round() as u32

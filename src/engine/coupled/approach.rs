@@ -359,7 +359,7 @@ mod tests {
                 let energy = (0.05 + 0.6 * random.f64()) * loads.1 * length;
                 let mass = 10f64.powf(-2.0 + 2.0 * random.f64());
                 let speed = (2.0 * energy / mass).sqrt();
-                let step = 0.004 * length / speed;
+                let step = 0.01 * length / speed;
                 let (work, energy, largest) = impact(&mut unit, &inputs, (mass, speed, low - 0.5 * length, step));
                 assert!(work.abs() <= 1e-6 * energy, "{which}: {:e} of the peak energy", work / energy);
                 assert!(largest > 0.02 * loads.1);

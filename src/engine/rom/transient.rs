@@ -1,7 +1,7 @@
-//! Transient models in files.
+//! Writes, reads and checks transient reduced models in files.
 //!
-//! Modes are rounded to a relative accuracy of 1e-12 of the pressures; everything else is stored exactly. A march with
-//! a model that was read agrees with that of the original model to about seven digits.
+//! Modes are rounded to a relative accuracy of 1e-12 of the pressures; everything else is stored exactly. A run in
+//! time with a model that was read agrees with that of the original model to about seven digits.
 
 use super::container::{Contents, Heading, ModelKind, Writer};
 use super::error::{ModelFileError, damaged};
@@ -45,7 +45,7 @@ struct TransientModel {
     starts: Vec<Start>,
 }
 
-/// Start of a training and its inputs. The coefficients are in an array.
+/// Steady start of a training trajectory, and its inputs. The coefficients are in an array.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Start {

@@ -1,21 +1,21 @@
-//! Substitutes for threads, which a page does not have. The caller does the work itself, or another instance does
-//! it.
+//! Thread functions of the web page, where WebAssembly has no threads: nothing can be spawned, nothing waits. Work is
+//! done by the caller, or by another instance of the module in a web worker. Also tells whether memory is short.
 
 use std::io;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError};
 use std::time::Duration;
 
-/// True if this process can run work in parallel to the caller.
+/// True if this process can run work in parallel with the caller.
 pub const THREADS: bool = false;
 
-/// Memory of an instance from which on models that can be read again are given back \[bytes\].
-const CROWDED: usize = 160 << 20;
+/// Memory of this instance above which reduced models that can be read again are dropped \[bytes\].
+const MEMORY_LIMIT: usize = 160 << 20;
 /// Bytes of a page of WebAssembly's memory.
 const PAGE: usize = 1 << 16;
 
-/// Returns true if memory is short, so that models that can be read again are given back.
+/// Returns true if memory is short, so that reduced models that can be read again are dropped.
 pub fn is_crowded() -> bool {
-    core::arch::wasm32::memory_size::<0>() * PAGE > CROWDED
+    core::arch::wasm32::memory_size::<0>() * PAGE > MEMORY_LIMIT
 }
 
 /// Refuses to start a thread.
@@ -36,7 +36,7 @@ pub fn pause(_duration: Duration) {}
 ///
 /// # Errors
 /// If no value is available, or the channel is closed.
-pub fn receive<T>(values: &Receiver<T>, _patience: Duration) -> Result<T, RecvTimeoutError> {
+pub fn receive<T>(values: &Receiver<T>, _timeout: Duration) -> Result<T, RecvTimeoutError> {
     values.try_recv().map_err(|none| match none {
         TryRecvError::Empty => RecvTimeoutError::Timeout,
         TryRecvError::Disconnected => RecvTimeoutError::Disconnected,

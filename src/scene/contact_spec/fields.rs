@@ -83,7 +83,7 @@ macro_rules! contact_fields {
                 }
             }
 
-            /// Sets a number in SI units. No effect on fields that are not numbers.
+            /// Sets a number in SI units, see [`Self::set_as_typed`]. No effect on fields that are not numbers.
             pub fn set(&mut self, field: Field, value: f64) {
                 match field {
                     $(Field::$field => self.$member = Given::of_number(value).or(self.$member.take()),)*
@@ -159,9 +159,9 @@ contact_fields! {
     moes_l: f64, MoesL, "moes-l", "Moes' lubricant number L",
         { measure: Measure::Of(Quantity::L), column: "L", titles: &["l", "moes_l"] };
     oil: OilGrade, Oil, "oil", "ISO viscosity grade of a mineral oil, as ISO VG 68",
-        { titles: &["isovg", "vg", "iso_vg"], absent: &[Words::Flags] };
+        { note: ", with <temperature>", placeholder: Some("GRADE"), titles: &["isovg", "vg", "iso_vg"] };
     temperature: f64, Temperature, "temperature", "Temperature of the oil of a grade",
-        { measure: Measure::In(Dimension::Temperature), bare: Some("°C"), titles: &["t"], absent: &[Words::Flags] };
+        { measure: Measure::In(Dimension::Temperature), bare: Some("°C"), titles: &["t"] };
     lubricant: NamedLubricant, Lubricant, "lubricant",
         "Named lubricant: a set of laws; a given density or viscosity law replaces that of the lubricant",
         { placeholder: Some("NAME") };
@@ -290,12 +290,20 @@ impl Field {
         found.ok_or_else(|| NotVaried { word: word.to_owned() })
     }
 
-    /// Checks that a text is a valid value of the field.
+    /// Checks that a text is a valid value of the field. Numbers may have a unit.
     ///
     /// # Errors
     /// With a sentence that says what is accepted.
     pub fn check(self, text: &str) -> Result<(), ValueError> {
-        ContactSpec::default().read_plain(self, text)
+        // Revolutions per minute are valid; the radius that converts them is another field.
+        let mut spec = ContactSpec { radius1: Some(1.0), radius2: Some(1.0), ..ContactSpec::default() };
+        if self.is_number() { Ok(spec.read_number(self, text, "")?) } else { spec.read_plain(self, text) }
+    }
+
+    /// Returns the key by which fields are sorted before they are read. The kind of contact, on which the unit of the
+    /// load depends, comes first. The speeds of the bodies, which may be revolutions per minute, follow their radii.
+    pub fn reading_order(self) -> (bool, Self) {
+        (matches!(self, Self::U1 | Self::U2), self)
     }
 
     /// Returns true if the value is one number.

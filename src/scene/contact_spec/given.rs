@@ -1,9 +1,10 @@
-//! Types of field values, and how they are read from text.
+//! Types of the values by which a contact is specified, on the command line and in tables, and how each is read from text.
 
 use crate::scene::grid::Grid;
 use crate::scene::named_lubricant::{NamedLubricant, UnknownLubricant, by_name};
 use crate::solver::physics::bodies::{BodyHeat, MATERIALS, Material};
 use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::engineering::UnitError;
 use crate::solver::physics::lubricant::{Cavitation, DensityLaw, LimitingStress, ViscosityLaw};
 use crate::solver::physics::surfaces::AsperityLaw;
 use serde::{Deserialize, Serialize};
@@ -16,6 +17,9 @@ pub enum ValueError {
     /// Not a number.
     #[error(transparent)]
     Number(#[from] ParseFloatError),
+    /// Not a number, or one with a unit of another dimension.
+    #[error(transparent)]
+    Unit(#[from] UnitError),
     /// Not one of the accepted words.
     #[error("accepted are {}", .0.join(", "))]
     Word(Vec<&'static str>),
@@ -34,7 +38,7 @@ pub enum ValueError {
     #[error(transparent)]
     Lubricant(#[from] UnknownLubricant),
     /// Not a viscosity grade.
-    #[error("write it like ISO VG 68")]
+    #[error("enter a grade such as ISO VG 68")]
     Grade,
     /// Not a domain.
     #[error(
@@ -75,9 +79,9 @@ pub enum ValueError {
 /// Accepted words with their meanings.
 pub type Choices = Vec<(&'static str, &'static str)>;
 
-/// Type of a field value.
+/// Value of one entry of a contact specification.
 pub(super) trait Given: Sized {
-    /// Number of numbers in a value.
+    /// How many numbers a value consists of at most, if they are written with commas between them.
     const NUMBERS: usize = 0;
 
     /// Returns the accepted words, if the value is chosen by a word.
@@ -88,7 +92,7 @@ pub(super) trait Given: Sized {
     /// Reads the value from a text.
     ///
     /// # Errors
-    /// With a sentence that says what is accepted.
+    /// [`ValueError`], which says what is accepted.
     fn read(text: &str) -> Result<Self, ValueError>;
 
     /// Returns the value for a number, if it is numeric.
@@ -102,7 +106,7 @@ pub(super) trait Given: Sized {
     }
 }
 
-/// Words, meanings and values of a choice.
+/// All words of a choice, with their meanings and values.
 type All<T> = &'static [(&'static str, &'static str, T)];
 
 /// Value that is chosen by a word.
@@ -130,7 +134,7 @@ pub enum MethodName {
     Reduced,
 }
 
-/// Laws of shear thinning that can be given by their constants.
+/// Shear laws that can be selected by name. Their constants are entries of their own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum ShearName {
     /// Viscosity independent of stress.
@@ -146,7 +150,7 @@ pub enum ShearName {
 pub struct Domain {
     /// Inlet and outlet end.
     pub x: (f64, f64),
-    /// Outer edge across, for a point contact.
+    /// Outer edge in Y, for a point contact.
     pub y: Option<f64>,
 }
 

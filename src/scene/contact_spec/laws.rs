@@ -103,6 +103,10 @@ impl ContactSpec {
         let graded = self.oil_state()?.map(|state| state.heat);
         let mut oil = graded.or(self.lubricant.map(|named| named.heat)).unwrap_or(constants.oil);
         let inlet_temperature = graded.and(self.temperature).unwrap_or(constants.inlet_temperature);
+        if graded.is_some() && self.inlet_temperature.is_some_and(|stated| stated != inlet_temperature) {
+            let sentence = "<temperature> of the oil is that of the inlet; leave out <inlet-temperature>";
+            return refuse(Field::InletTemperature, sentence);
+        }
         if let Some([heat_capacity, conductivity, density]) = self.oil_thermal {
             oil = OilHeat { heat_capacity, conductivity, density, ..oil };
         }

@@ -206,7 +206,7 @@ mod tests {
             ("0.012,3,,2e11,0.02,", "give load, alpha too"),
             (",,,,,,,,,40,,", "M and L belong together"),
             ("0.012,3,3e5,2e11,,,ISO VG 69,60", "69 is no ISO viscosity grade"),
-            ("0.012,3,3e5,2e11,,,thick,60", "oil: “thick” is not valid; write it like ISO VG 68"),
+            ("0.012,3,3e5,2e11,,,thick,60", "oil: “thick” is not valid; enter a grade such as ISO VG 68"),
             ("0.012,3,3e5,2e11,,,68", "needs a temperature"),
             ("0.012,3,3e5,2e11,0.02,,68,60", "or both of them"),
             ("0.012,3,3e5,2e11,0.02,2e-8,,,ellipsoid", "“ellipsoid” is not valid"),

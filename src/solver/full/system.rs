@@ -83,17 +83,10 @@ pub struct System<S: NewtonSpace> {
     pub(super) update: Vec<f64>,
 }
 
-/// Limit of the residual norm of a solution. Residual norms of solutions are at most 1e-10 for line contacts and 1e-4
-/// for point contacts; those of other states are 1e3 and more.
+/// Limit of the residual norm of a solution, in units of the film thickness H if that is above 1. Residual norms of
+/// solutions are at most 1e-10 for line contacts and 1e-4 for point contacts; those of other states are 1e3 and more.
+/// Films many times thicker than a²/R have larger ones, by rounding.
 const AT_REST: f64 = 1.0;
-
-/// Returns true if a residual norm is that of a solution. After a step that changed nothing, this must be checked for
-/// Eyring (shear-thinning) lubricants. Far from a solution some equations outweigh all others by thirty orders of
-/// magnitude. A step that solves these to a hundredth of the right-hand side is then zero, and the state remains
-/// wrong.
-pub(super) fn is_at_rest(residual_norm: f64) -> bool {
-    residual_norm < AT_REST
-}
 
 /// Evaluates the nodes of a smooth film, Newtonian, shear-thinning or thermal, at pressure P and film thickness H.
 pub(super) fn evaluate_film<S: NewtonSpace>(
@@ -276,9 +269,18 @@ impl<S: NewtonSpace> System<S> {
     ) {
         self.begin(problem, options);
         self.go_on(problem, options, &mut S::Memory::default(), observer, report);
-        if report.termination == Termination::Converged && !is_at_rest(report.residual_norm) {
+        if report.termination == Termination::Converged && !self.is_at_rest(report.residual_norm) {
             report.termination = Termination::Diverged;
         }
+    }
+
+    /// Returns true if a residual norm is that of a solution. After a step that changed nothing, this must be checked
+    /// for Eyring (shear-thinning) lubricants. Far from a solution some equations outweigh all others by thirty orders
+    /// of magnitude. A step that solves these to a hundredth of the right-hand side is then zero, and the state remains
+    /// wrong.
+    pub(super) fn is_at_rest(&self, residual_norm: f64) -> bool {
+        let film = self.film.iter().copied().fold(f64::INFINITY, f64::min);
+        residual_norm < AT_REST * film.max(1.0)
     }
 
     /// Prepares Newton's method from the current state.

@@ -1,4 +1,4 @@
-//! Solution of a reduced model.
+//! Result of solving a reduced model.
 
 use super::domain::Trust;
 use super::error_estimate::ErrorEstimate;
@@ -7,7 +7,7 @@ use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::{Lubricant, WholeLubricant};
 use serde::{Deserialize, Serialize};
 
-/// Result of the online phase: few numbers only. Fields are reconstructed on request.
+/// Result of solving a reduced model: coefficients and scalars. Fields are reconstructed on request.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ReducedSolution {
     /// Operating point.
@@ -17,13 +17,14 @@ pub struct ReducedSolution {
     pub lubricant: Lubricant,
     /// Index of the local model used.
     pub window: usize,
-    /// True if it is not the contact's own local model, which found no solution. Its errors were not measured there.
+    /// True if the local model of this range found no solution and a neighbour was used, whose errors were not measured
+    /// here.
     pub by_neighbour: bool,
     /// Coefficients in the pressure basis.
     pub coefficients: Vec<f64>,
     /// With complementarity, the first cavitated column of each line along X, in node arrays; empty with a penalty.
     pub fronts: Vec<usize>,
-    /// Solutions of other local models that are blended in near borders, with their shares. The scalars are then
+    /// Solutions of neighbouring local models, and their weights, which are blended in near the limits of a range. The scalars are then
     /// those of the blend.
     pub beside: Vec<(f64, ReducedSolution)>,
     /// Rigid-body separation H₀.
@@ -32,7 +33,7 @@ pub struct ReducedSolution {
     pub h_c: f64,
     /// Traction coefficient (3.41) by the traction quadrature; `None` if the model does not include sliding.
     pub traction: Option<f64>,
-    /// Share by which the limiting stress reduces the traction of its own local model, 0…1; `None` with heat, or
+    /// Relative reduction of the traction by the limiting stress, 0…1, before blending; `None` with heat, or
     /// without a traction quadrature.
     pub cut: Option<f64>,
     /// Temperatures; `None` if isothermal.

@@ -1,22 +1,25 @@
-//! Traction (3.41) without large-scale work: the mid-film shear stress at few nodes, with non-negative weights.
+//! Quadrature for the traction (3.41) of a reduced model: the mid-film shear stress τ at few nodes, with non-negative
+//! weights.
 //!
-//! The nodes are selected among those of the sampled equations and some others, because the sampled equations cover
-//! little of the region where the limiting stress acts. The weights are fitted by non-negative least squares to ∫τ
-//! dX/∫τ dX = 1 over many sliding reduced solutions (mid-film stress τ), so that each contact has the same influence.
+//! The nodes are selected among those of the sampled equations and a regular subset of the grid, because the sampled equations cover
+//! little of the region where the limiting stress acts. The weights reproduce the integral of τ over all nodes
+//! for many sliding reduced solutions, by non-negative least squares. Each solution is divided by its integral, so that
+//! all have the same influence.
 //!
 //! An isothermal line contact has so few nodes that all of them are used, by the trapezoidal rule. There the error of
-//! a quadrature with few nodes would dominate where the limiting stress begins to act. A thermal line contact is less
-//! accurate than its quadrature, and evaluating a film with temperatures takes longer.
+//! a quadrature with few nodes would dominate where the limiting stress begins to act. Thermal line contacts use
+//! few nodes: the error of their quadrature is below that of their reduced fields, and evaluating a film with temperatures
+//! takes longer.
 
 use super::cubature::GoalEquations;
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::physics::contact::ContactKind;
 use serde::{Deserialize, Serialize};
 
-/// Number of nodes of a quadrature for point contacts. The error is 4e-4 (95 %) for thermal circular contacts, below
-/// that of the reduced fields. The fit itself ends at about 400 nodes.
+/// Number of nodes of a quadrature for point contacts. The error is 4e-4 (95th percentile) for thermal circular contacts, below
+/// that of the reduced fields. Without this limit the fit would choose about 400 nodes.
 const NODES: usize = 360;
-/// Number of nodes for thermal line contacts. The error is 2e-5 (95 %), a thirtieth of that of the fields.
+/// Number of nodes for thermal line contacts. The error is 2e-5 (95th percentile), a thirtieth of that of the fields.
 const NODES_OF_LINE: usize = 180;
 /// Every so many nodes along X, and across, are candidates in addition to those of the sampled equations.
 const BETWEEN: usize = 5;

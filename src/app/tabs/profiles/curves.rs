@@ -1,4 +1,5 @@
-//! Common parts of the plots of profiles: live, full and pinned curves, their names and marks.
+//! Common parts of the plots of pressure and film profiles. Curves are those of the present contact (live), of a full
+//! solution drawn over it, and of results that were pinned for comparison.
 
 use crate::app::answers::Pin;
 use crate::app::answers::picture::{Cuts, Origin, Picture, value_at};
@@ -25,15 +26,15 @@ fn pin_name(pin: &Pin) -> String {
     format!("Pin {}: {}, {}", pin.number, Shape::of(point).contact(), numbers::contact(point))
 }
 
-/// Content of the plots of the tab.
+/// Results that the plots of the tab show.
 pub struct Scene<'a> {
-    /// Live picture.
+    /// Result for the present contact.
     pub picture: &'a Picture,
-    /// Full solution drawn over it.
+    /// Full solution that is drawn over it.
     pub full: Option<&'a Picture>,
     /// Pinned curves.
     pub pins: &'a [Pin],
-    /// True if the live picture belongs to a previous contact.
+    /// True if the result belongs to a previous contact.
     pub stale: bool,
     /// True if the full solution belongs to a previous contact.
     pub full_stale: bool,
@@ -63,7 +64,7 @@ impl<'a> Scene<'a> {
         of: impl Fn(&'a Picture) -> &'a [PlotPoint],
         unit: fn(Scales) -> f64,
     ) -> Color32 {
-        // With units a curve of another contact is converted with its own scales to the axes of this one.
+        // In dimensional units, curves of other contacts are rescaled to the axes of this one.
         let (units, system) = (Units::of(plot.ctx()), units::system(plot.ctx()));
         let own = Scales::of(&self.picture.key.point, system);
         let fitted = |picture: &'a Picture| {
@@ -80,7 +81,7 @@ impl<'a> Scene<'a> {
         };
         for (k, pin) in self.pins.iter().enumerate() {
             let (points, hue) = (fitted(&pin.picture), palette.pin(pin.number));
-            // Draw its number where no other number is.
+            // Numbers of curves are moved along X, so that they do not overlap.
             let x = PIN_LABELS.0 + PIN_LABELS.1 * k as f64;
             let height = value_at(points.points(), x);
             plot.line(curve(pin_name(pin), points, hue, THIN_WIDTH));
@@ -101,11 +102,11 @@ impl<'a> Scene<'a> {
     }
 }
 
-/// Opacity of the asperities' share below the pressure, and of the band of the roughness around the film.
+/// Opacity of the asperity pressure within the total pressure, and of the band of the roughness around the film.
 const ASPERITIES: f32 = 0.35;
 const ROUGHNESS: f32 = 0.2;
 
-/// Fills the share of the asperities below the pressure of a rough contact.
+/// Fills the area below the asperity pressure, a part of the total pressure of a rough contact.
 pub fn asperities(plot: &mut Canvas<'_, '_>, scene: &Scene<'_>, direction: Direction, palette: &Palette) {
     let upper = direction.asperities(scene.picture);
     let lower: Vec<PlotPoint> = upper.iter().map(|point| PlotPoint::new(point.x, 0.0)).collect();
@@ -121,7 +122,7 @@ pub fn roughness(plot: &mut Canvas<'_, '_>, scene: &Scene<'_>, direction: Direct
     plot.between("roughness", &moved(-rough.sigma), &moved(rough.sigma), fill);
 }
 
-/// Draws the key above the plots, where it covers nothing.
+/// Draws the legend above the plots.
 pub fn key_ui(ui: &mut Ui, scene: &Scene<'_>) {
     let palette = Palette::of(ui);
     let live = scene.hue(&palette, palette.pressure);
@@ -140,7 +141,7 @@ pub fn key_ui(ui: &mut Ui, scene: &Scene<'_>) {
     key::ui(ui, entries);
 }
 
-/// Returns a plot of the stack, with shared X axis and cursor.
+/// Creates one of the plots that stand below each other, with a common X axis and cursor.
 pub fn stacked<'a>(
     ui: &Ui,
     (direction, length, kappa): (Direction, Scale, f64),
@@ -148,7 +149,7 @@ pub fn stacked<'a>(
     (x_title, y_title): (&str, &str),
 ) -> PlotFrame<'a> {
     let group = Id::unique(direction.id("profiles"));
-    // Use as many marks as there is space for numbers.
+    // The number of ticks follows from the width.
     let marks = f64::from((ui.available_width() / 90.0).clamp(3.0, 9.0));
     axes::plot(ui, &direction.id(id), height, x_title, y_title)
         .marks_x(marks)

@@ -1,4 +1,5 @@
-//! Amplitude curve: what remains in the film of a wavy surface that passes the contact, next to the published curve.
+//! Amplitude curve: the amplitude A_d of the film's waviness at the centre of the contact over the amplitude A_i of a wavy
+//! surface that passes it, for ten wavelengths, next to a published formula.
 
 use crate::app::caption;
 use crate::app::context::{Commands, Context};
@@ -29,9 +30,9 @@ use egui_plot::{HoverPosition, Line, LineStyle, MarkerShape, PlotPoint, PlotPoin
 
 /// Number of wavelengths.
 const WAVELENGTHS: usize = 10;
-/// Range of Ψ.
-const NABLA: (f64, f64) = (1.0, 50.0);
-/// Longest wavelength in units of a, and the shortest in spacings of the grid.
+/// Range of the parameter Ψ of the published formula.
+const PSI: (f64, f64) = (1.0, 50.0);
+/// Longest wavelength in units of the Hertzian half width a, and the shortest in spacings of the grid.
 const LONGEST: f64 = 4.0;
 const SPACINGS: f64 = 8.0;
 /// Number of points of the published curve.
@@ -39,14 +40,14 @@ const CURVE: usize = 200;
 /// Name under which the plot is drawn.
 const NAME: &str = "Amplitude over wavelength";
 
-/// Contact and body of a curve.
+/// Contact for which a curve is wanted, and the body that is wavy.
 #[derive(Clone, Debug, PartialEq)]
 struct Wanted {
     key: Key,
     body: u8,
 }
 
-/// Curve with its job.
+/// Amplitude curve and its computation in the background.
 pub struct AmplitudeCurve {
     body: u8,
     wanted: Option<Wanted>,
@@ -70,16 +71,16 @@ impl Wanted {
         }
     }
 
-    /// Returns Ψ of the wavelength a.
+    /// Returns Ψ for a wavelength equal to a.
     fn unit(&self) -> f64 {
         reduction_parameter(self.key.point.kind, self.key.point.moes(), 1.0)
     }
 
-    /// Returns wavelengths λ/a with equal ratios within the range of Ψ that the grid resolves.
+    /// Returns geometrically spaced wavelengths λ/a within the range of Ψ that the grid resolves.
     fn wavelengths(&self) -> Vec<f64> {
         let (unit, shortest) = (self.unit(), SPACINGS * self.grid().1);
-        let low = (NABLA.0 / unit).max(shortest).min(0.5 * LONGEST);
-        let high = (NABLA.1 / unit).clamp(2.0 * low, LONGEST.max(2.0 * low));
+        let low = (PSI.0 / unit).max(shortest).min(0.5 * LONGEST);
+        let high = (PSI.1 / unit).clamp(2.0 * low, LONGEST.max(2.0 * low));
         let ratio = (high / low).ln() / (WAVELENGTHS - 1) as f64;
         (0..WAVELENGTHS).map(|k| numbers::rounded(low * (ratio * k as f64).exp(), 4)).collect()
     }
@@ -94,13 +95,13 @@ impl Wanted {
         question("Amplitude curve", &self.key, self.grid().0, Study::Amplitude(study))
     }
 
-    /// Returns the speed of the wavy surface over u_m.
+    /// Returns the speed of the wavy surface in units of u_m.
     fn speed(&self) -> f64 {
         MovingSurface::speed_of(self.body, self.key.point.sliding.slide_to_roll_ratio)
     }
 }
 
-/// Returns why there is no curve for a contact. `None` if there is.
+/// Returns why the curve of a contact cannot be computed; `None` if it can.
 fn refused(document: &Document) -> Option<String> {
     check_lubricant(&document.lubricant).err().map(|problem| sentence(&problem.to_string()))
 }
@@ -233,7 +234,7 @@ fn plot(ui: &mut Ui, of: &Wanted, rows: &[Row], (fit, height): (bool, f32)) {
             numbers::significant(row.published)
         ))
     };
-    let (low, high) = (NABLA.0.log10() - 0.05, NABLA.1.log10() + 0.05);
+    let (low, high) = (PSI.0.log10() - 0.05, PSI.1.log10() + 0.05);
     let title = match of.key.point.kind {
         ContactKind::Line => "Ψ = (λ/{a}) {M}^(3/4)/{L}^(1/2)",
         ContactKind::Point => "Ψ = (λ/{a}) ({M}/{L})^(1/2)",

@@ -14,7 +14,7 @@ const COLUMNS: [&str; 13] = [
     "ms per step",
     "s",
     "times faster",
-    "H_c difference",
+    "H_c.difference_l2",
     "published modes",
     "published rows or points",
     "published steps",
@@ -22,11 +22,14 @@ const COLUMNS: [&str; 13] = [
     "published s",
     "published times faster",
 ];
+/// Number of columns without published values.
+const OWN: usize = 7;
 
 /// Returns the table `costs` of some marches: median time per step, total time, speed-up relative to the full march,
-/// and relative L2 difference of H_c from it.
+/// and relative L2 difference of H_c from it. Published values follow if the study has any.
 pub(super) fn table(study: &TransientStudy, marches: &[&March], models: &[&Model]) -> Table {
-    let mut table = Table::new("costs", &COLUMNS);
+    let columns = if study.published.is_empty() { OWN } else { COLUMNS.len() };
+    let mut table = Table::new("costs", &COLUMNS[..columns]);
     let number = |value: Option<f64>| value.unwrap_or(f64::NAN);
     let count = |value: Option<usize>| number(value.map(|value| value as f64));
     let published = |name: &str| study.published.iter().find(|march| march.name == name);
@@ -39,7 +42,7 @@ pub(super) fn table(study: &TransientStudy, marches: &[&March], models: &[&Model
         let quotient = |of: fn(&PublishedMarch) -> Option<f64>| Some(full.and_then(of)? / own.and_then(of)?);
         let faster = march.full(marches).map(|full| full.march_s() / march.march_s());
         table.labels.push(march.name.clone());
-        table.rows.push(vec![
+        let mut row = vec![
             count(model.map(|model| model.modes())),
             count(model.map(|model| model.chosen())),
             march.steps().len() as f64,
@@ -53,7 +56,9 @@ pub(super) fn table(study: &TransientStudy, marches: &[&March], models: &[&Model
             1e3 * number(own.and_then(PublishedMarch::seconds_per_step)),
             number(own.and_then(|told| told.march_s)),
             number(quotient(|told| told.march_s).or_else(|| quotient(PublishedMarch::seconds_per_step))),
-        ]);
+        ];
+        row.truncate(columns);
+        table.rows.push(row);
     }
     table
 }

@@ -9,7 +9,7 @@ use crate::solver::discrete::space::Grid;
 use crate::solver::full::newton_space::{NewtonSpace, Turn};
 use crate::solver::full::problem::Problem;
 use crate::solver::full::report::{Report, Termination};
-use crate::solver::full::system::{SolveOptions, System, is_at_rest};
+use crate::solver::full::system::{SolveOptions, System};
 use crate::solver::observer::Observer;
 use crate::solver::physics::lubricant::{Cavitation, ScaledHeat};
 use std::sync::Arc;
@@ -181,7 +181,7 @@ impl Coupled {
                 let options = SolveOptions { control, ..options };
                 system.go_on(problem, &options, &mut memory, observer, report);
                 if !matches!(report.termination, Termination::Cancelled | Termination::Diverged) {
-                    let at_rest = is_at_rest(report.residual_norm);
+                    let at_rest = system.is_at_rest(report.residual_norm);
                     report.termination = if at_rest { Termination::Converged } else { Termination::Diverged };
                 }
                 return;

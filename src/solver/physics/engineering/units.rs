@@ -252,7 +252,8 @@ pub fn parse(text: &str, dimension: Dimension, field_unit: &str) -> Result<f64, 
     let (number, unit) = split(&plain);
     let example = || {
         let unit = dimension.units().first().map_or("", |(unit, _)| unit);
-        UnitError::NoNumber { text: text.trim().to_owned(), example: format!("12.5 {unit}") }
+        let example = if dimension == Dimension::Ratio { "0.125 or 12.5 %".to_owned() } else { format!("12.5 {unit}") };
+        UnitError::NoNumber { text: text.trim().to_owned(), example }
     };
     let value = number.parse::<f64>().ok().filter(|value| value.is_finite()).ok_or_else(example)?;
     let typed = if unit.is_empty() { field_unit } else { unit };

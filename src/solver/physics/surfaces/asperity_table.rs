@@ -1,19 +1,19 @@
-//! Table of an asperity law, which is much faster than its integrals.
+//! Tabulated asperity law. Interpolation is much faster than the law's integrals.
 
 use super::asperity_laws::AsperityLaw;
 
-/// Tabulated separations, and their number per unit.
+/// Range of the tabulated separation l, in units of σ, and number of points per unit.
 const RANGE: (f64, f64) = (-12.0, 14.0);
 const PER_UNIT: f64 = 64.0;
 
 /// Asperity law at one reduced modulus, tabulated as a cubic Hermite spline of ln p_a. Its relative error is 1e-10 for
-/// the pressure and 1e-7 for the derivative, which is that of the spline. Below the table ln p_a is linear, above it the
-/// pressure is zero: it is below e^(−70) of that at l = 0.
+/// the pressure and 1e-7 for the derivative, which is exactly that of the spline. Below the table ln p_a is linear. Above
+/// it the pressure is set to zero; it would be less than e^(−70) times the pressure at l = 0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AsperityTable {
     law: AsperityLaw,
     modulus_pa: f64,
-    /// ln p_a \[Pa\] and its derivative times the step, at separations from the lower end of the range; empty for the
+    /// ln p_a \[Pa\] and its derivative times the spacing of the table, from the lower end of the range; empty for the
     /// exponential law, which needs no table.
     logarithms: Vec<[f64; 2]>,
 }
@@ -39,7 +39,7 @@ impl AsperityTable {
         self.law == law && self.modulus_pa == modulus_pa
     }
 
-    /// Returns the mean pressure p_a \[Pa\] and its derivative by l at a separation l.
+    /// Returns the mean pressure p_a \[Pa\] and its derivative with respect to l at a separation l.
     #[inline]
     pub fn pressure(&self, separation: f64) -> (f64, f64) {
         let at = (separation - RANGE.0) * PER_UNIT;
@@ -65,7 +65,8 @@ impl AsperityTable {
         (pressure, pressure * slope * PER_UNIT)
     }
 
-    /// Returns the separation at which the pressure has a value \[Pa\]: the pressure falls with the separation.
+    /// Returns the separation at which the pressure equals a value \[Pa\], by bisection. The pressure falls with the
+    /// separation.
     pub fn separation_at(&self, pressure_pa: f64) -> f64 {
         let (mut low, mut high) = (-2.0 * RANGE.1, RANGE.1);
         for _ in 0..60 {

@@ -1,5 +1,6 @@
-//! Newton iteration on reduced operators for the pressure coefficients p̃ and the rigid-body separation H₀. Nothing
-//! here is of large scale, and an iteration allocates nothing.
+//! Newton's method of the reduced model for the pressure coefficients p̃ and the rigid-body separation H₀. The cost of an
+//! iteration does not depend on the number of nodes of the grid, and it allocates nothing. Extensions of the equations,
+//! such as a moving cavitation boundary, heat or shear-thinning, are parts ([`Part`]) that add their share to each stage.
 
 use super::assembled::Operators;
 use super::case::{Case, State};
@@ -8,23 +9,24 @@ use super::sampled_system::SampledSystem;
 use crate::solver::discrete::reynolds::film_integrals::LAST_STEP;
 use faer::MatRef;
 
-/// Number of steps after which an iteration is slow; most take two to five.
-const SWIFT: usize = 12;
+/// Number of steps after which derivatives by the cavitation boundary are exact, since an approximation may be the
+/// reason for slow convergence. Most solves take two to five steps.
+const SLOW_AFTER: usize = 12;
 
-/// Relative step below which derivatives are used again, and largest ratio of the next step for which this continues.
+/// Relative step below which derivatives are reused, and largest ratio of successive steps for which this continues.
 const NEAR: f64 = 1e-2;
 const SHRINKS: f64 = 0.3;
 
-/// Last step of the film iteration at a shear-thinning node, divided by the squared tolerance of the whole iteration.
-/// Both iterations leave an error of the square of their last step. At a tolerance of 1e-3 both errors are equal; at 1e-5
+/// Step at which the iteration for the film at a shear-thinning node ends, over the squared tolerance of Newton's method.
+/// The errors of both iterations are proportional to the square of their last step. At a tolerance of 1e-3 both errors are equal; at 1e-5
 /// films are exact to rounding.
 const FILM_STEP: f64 = 1e3;
 
 /// Purpose of an evaluation of the rows.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Wanted {
-    /// A step with new derivatives. With `exact`, the deformation K V of the modes is taken at the boundary's current
-    /// position even for many lines, instead of a nearby position.
+    /// A step with new derivatives. With `exact`, the deformation K V of the modes is computed for the current cavitation
+    /// boundary, instead of a nearby one that is stored.
     Step { exact: bool },
     /// A step with previous derivatives, and the quantities that the cavitation boundary checks.
     StepAgain,
@@ -56,7 +58,7 @@ pub(crate) struct Iterate<'a> {
     pub coefficients: &'a [f64],
     /// Film thickness at X = 0 per unit of each coefficient.
     pub lift: &'a [f64],
-    /// Film thickness to which errors of the central one are relative, before the step: for rough surfaces at least σ/2.
+    /// Reference of relative errors of H_c: H_c before the step, for rough surfaces at least σ/2.
     pub h_c: f64,
 }
 
@@ -64,7 +66,8 @@ pub(crate) struct Iterate<'a> {
 pub(crate) type RowObserver<'a> = &'a mut dyn FnMut(&Iterate<'_>);
 
 impl Operators {
-    /// Runs Newton's method on (p̃, H₀) for one case, after [`Self::begin`], damped by the largest pressure change.
+    /// Runs Newton's method on (p̃, H₀) for one case, after [`Self::begin`]. Steps are shortened so that no
+    /// pressure changes too much.
     pub fn newton(
         &mut self,
         case: &Case<'_>,
@@ -80,7 +83,7 @@ impl Operators {
         // True if the factors of the last derivatives can be used again.
         let mut near = false;
         for iteration in 1..=stop.max_newton {
-            let wanted = if near { Wanted::StepAgain } else { Wanted::Step { exact: iteration > SWIFT } };
+            let wanted = if near { Wanted::StepAgain } else { Wanted::Step { exact: iteration > SLOW_AFTER } };
             outcome.residual = self.evaluate(case, State { coefficients, h_0: *h_0 }, wanted);
             let Self { system, parts, equations, .. } = self;
             let solved = if near {
@@ -112,7 +115,8 @@ impl Operators {
                 Moved::State => spread(system, parts, coefficients),
                 Moved::Still | Moved::BetweenRows | Moved::PastRows => {}
             }
-            // The derivatives of a penalty jump where pressures change sign. Observers need the solved equations.
+            // Not with a penalty, whose derivative jumps where a pressure changes sign, nor with an observer, which needs
+            // the equations of each step.
             near = moved < Moved::PastRows
                 && omega == 1.0
                 && outcome.step < if near { SHRINKS * former } else { NEAR }
@@ -148,7 +152,7 @@ impl Operators {
         });
     }
 
-    /// Evaluates the sampled equations at the fields; returns e_f^I.
+    /// Evaluates the sampled equations at the current state; returns e_f^I.
     pub(super) fn evaluate(&mut self, case: &Case<'_>, state: State<'_>, wanted: Wanted) -> f64 {
         let Self { system, parts, deformation, .. } = self;
         let scale = case.scale;
@@ -172,7 +176,7 @@ impl Operators {
     }
 }
 
-/// Computes P, K P and the gradients of coefficients at the support, one after the other.
+/// Computes P, K P and their gradients for given coefficients at the nodes that the sampled equations need.
 pub(super) fn spread(system: &mut SampledSystem, parts: &mut [Box<dyn Part>], coefficients: &[f64]) {
     let mut fields = std::mem::take(&mut system.fields);
     system.basis.spread(system.support.own, coefficients, &mut fields);
@@ -180,7 +184,7 @@ pub(super) fn spread(system: &mut SampledSystem, parts: &mut [Box<dyn Part>], co
     system.fields = fields;
 }
 
-/// Does the same for the step.
+/// Computes the same quantities for the Newton step.
 fn spread_step(system: &mut SampledSystem, parts: &mut [Box<dyn Part>]) {
     let mut fields = std::mem::take(&mut system.step_fields);
     let step = &system.step.rhs[..system.modes];

@@ -1,5 +1,6 @@
-//! March of a trajectory-piecewise-linear model: weights, superposition, and one linear system per step. A step has
-//! no large-scale work and allocates nothing.
+//! Time integration of a trajectory-piecewise-linear model. A step weights the linearised systems of the operating points
+//! near its state, adds them up, and solves one small linear system. Its cost does not depend on the number of nodes of
+//! the grid, and it allocates nothing.
 
 use super::model::{TpwlError, TpwlModel, check_frame};
 use super::record::{TpwlRecord, TpwlStep};
@@ -15,14 +16,16 @@ use crate::solver::observer::Observer;
 use crate::solver::reduced::contact_rows::ContactRows;
 use crate::solver::reduced::dense::SmallSystem;
 
-/// Model prepared for one contact.
+/// Time integrator of a model for one contact.
 pub struct TpwlMarch<'a> {
     model: &'a TpwlModel,
     /// Reference load \[N/m\].
     load: f64,
-    /// Two previous states, the nearer one first.
+    /// Two previous states, the most recent first.
     former: [Past; 2],
+    /// State at the end of the present step.
     trial: Past,
+    /// Its extrapolation from the previous states, at which the weights are computed.
     start: Vec<f64>,
     search: Search,
     superposition: Superposition,
@@ -34,7 +37,7 @@ pub struct TpwlMarch<'a> {
     record: TpwlRecord,
 }
 
-/// Reduced state and its g.
+/// Reduced state y and its mass flow g(y), (4.16).
 #[derive(Clone, Debug)]
 struct Past {
     state: Vec<f64>,
@@ -43,14 +46,14 @@ struct Past {
 
 /// Stopping tolerance of the iteration for the steady start, for ‖Δy‖/‖y‖.
 const REST_TOLERANCE: f64 = 1e-9;
-/// Number of iterations for the steady start after which oscillating weights are averaged.
+/// Number of iterations for the steady start after which a change is halved, since the weights may oscillate.
 const REST_PLAIN: usize = 15;
 /// Maximum number of iterations for the steady start.
 const REST_ITERATIONS: usize = 60;
-/// Largest accepted change of the steady start between two sets of weights.
+/// Largest accepted change in the last iteration for the steady start.
 const REST_ACCEPTED: f64 = 1e-3;
 /// Number of times at which the speed is checked.
-const WATCHED: usize = 2000;
+const SPEED_CHECKS: usize = 2000;
 
 /// Simulates a contact in time with a model.
 ///
@@ -75,7 +78,7 @@ impl<'a> TpwlMarch<'a> {
     pub fn new(model: &'a TpwlModel, transient: &Transient, weighting: Weighting) -> Result<Self, TpwlError> {
         let problem = transient.problem()?;
         check_frame(transient.frame)?;
-        let watched = (0..=WATCHED).map(|k| transient.duration * k as f64 / WATCHED as f64);
+        let watched = (0..=SPEED_CHECKS).map(|k| transient.duration * k as f64 / SPEED_CHECKS as f64);
         if let Some(time) = watched.into_iter().find(|&time| transient.inputs.speed.at(time) <= 0.0) {
             return Err(TpwlError::reversal(transient.inputs.speed.at(time), time));
         }
@@ -130,8 +133,8 @@ impl<'a> TpwlMarch<'a> {
         if solved { Ok(()) } else { Err(Termination::Diverged) }
     }
 
-    /// Sets an initial guess of the steady state: for each set, the operating point with the nearest inputs. Returns
-    /// true if the inputs are equal.
+    /// Sets the initial guess of the steady state: for each training load in use, the operating point with the nearest
+    /// inputs. Returns true if its inputs are those wanted.
     fn guess(&mut self, input: [f64; INPUTS]) -> bool {
         self.start.fill(0.0);
         self.superposition.weights.clear();
@@ -148,7 +151,7 @@ impl<'a> TpwlMarch<'a> {
         met
     }
 
-    /// Accepts the state under trial: stores its record and its scalars.
+    /// Records the state at the end of the step and its scalars.
     fn keep(&mut self, at: &Conditions) {
         self.record.push(self.step, &self.superposition.weights, &self.trial.state);
         let (coefficients, h_0) = self.trial.state.split_at(self.model.space.modes());
@@ -163,6 +166,7 @@ fn relative_change(a: &[f64], b: &[f64], modes: usize) -> f64 {
     (square_distance(&a[..modes], &b[..modes]) / square(&a[..modes])).sqrt()
 }
 
+/// Effort of a step: one linear system.
 const LINEAR: Effort = Effort { newton_iterations: 1, linear_iterations: 0 };
 
 impl Marching for TpwlMarch<'_> {

@@ -1,4 +1,5 @@
-//! One basis of a transient model with its operators.
+//! One basis of a transient model: its reduced operators, and the discrete Reynolds equations at the sampled nodes, whose
+//! coefficients are set for every time step.
 
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::discrete::reynolds::line::Upstream;
@@ -8,15 +9,18 @@ use crate::solver::reduced::Window;
 use crate::solver::reduced::contact_rows::ContactRows;
 use crate::solver::reduced::operators::{Flow, Operators, passed_rows};
 
-/// Operators of a basis, and time-dependent data of its rows.
+/// Reduced operators of a basis, and the stencils from which a time step forms its equations. A row is the discrete
+/// Reynolds equation of one node.
 pub(super) struct Part {
+    /// Reduced operators.
     pub operators: Operators,
-    /// Stencils and coefficients of the sampled equations and of the rows that the cavitation boundary may pass, for
-    /// flow from the inlet and from the outlet. The flow of a point contact comes from the inlet.
+    /// Stencils and coefficients of the sampled equations and of the rows of nodes that the cavitation boundary may cross,
+    /// for flow from the inlet and from the outlet. The flow of a point contact comes from the inlet.
     sides: Vec<[Side; 2]>,
     /// Nodes of these rows, and their X.
     pub nodes: Vec<usize>,
     pub x: Vec<f64>,
+    /// Modes at the nodes from which central and minimum film thickness and pressure are read.
     pub contact: ContactRows,
 }
 
@@ -28,7 +32,7 @@ struct Side {
 }
 
 impl Part {
-    /// Builds the basis and rows of a local model.
+    /// Builds the operators and stencils of the whole basis or of a local one.
     pub fn new(window: &Window) -> Self {
         let (grid, modes) = (&window.grid, window.pressure.count());
         let rows: Vec<usize> = window.sampled_rows.iter().copied().chain(passed_rows(window)).collect();
@@ -63,7 +67,8 @@ impl Part {
         }
     }
 
-    /// Sets the coefficients of the sampled equations for a step; the previous states must be interpolated before.
+    /// Sets the coefficients of the sampled equations for a step. [`History::carry`] must have interpolated the previous
+    /// states to these nodes before.
     pub fn set_rows(&mut self, step: &Step, history: &History) {
         let weights = step.history_weights();
         for (r, (sides, x)) in self.sides.iter().zip(&self.x).enumerate() {

@@ -1,5 +1,6 @@
-//! Transient online phase: Newton's method on the sampled equations from the extrapolation of the two previous steps,
-//! in the nearest basis.
+//! Time integration of a reduced transient model. Newton's method solves the sampled equations of each step, from a start
+//! extrapolated from the two previous steps. A model may have a whole basis and local ones; a step uses the basis nearest
+//! to its state.
 
 use super::model::{TrajectoryModel, TrajectoryStart};
 use super::nearest::Nearest;
@@ -22,42 +23,46 @@ use std::sync::Arc;
 const TOLERANCE: f64 = 1e-6;
 /// Maximum number of Newton steps of a time step, and of the steady start.
 const MOST_NEWTON: [usize; 2] = [15, 60];
-/// Attempts of a step: whether a cavitation boundary is active, and the penalty factor relative to the model's own.
-/// If the boundary fails, the penalty is used, then a softer one.
+/// Successive attempts to solve a step: whether the cavitation boundary is active, and the factor on the model's penalty.
+/// If the boundary fails, the penalty is used, then a smaller one.
 const ATTEMPTS: [(bool, f64); 3] = [(true, 1.0), (false, 1.0), (false, 0.1)];
 /// Minimum number of steps in a basis. Both previous states are then of this basis, so that no state is projected
 /// twice.
 const LEAST_STAY: usize = 2;
-/// Number of the whole basis.
+/// Index of the whole basis, the one of all training states.
 const WHOLE: usize = 0;
 
 /// Observer of all iterates of all steps; receives the number of their basis.
 pub(crate) type StepObserver<'a> = Box<dyn FnMut(usize, &Iterate<'_>) + 'a>;
 
-/// Reduced model prepared for a march.
+/// Time integrator of a reduced model.
 pub struct ReducedMarch<'a> {
     model: Arc<TrajectoryModel>,
     grid: ContactGrid,
     /// Whole basis, then the local ones.
     parts: Vec<Part>,
     nearest: Nearest,
-    /// Number of the basis of the current states, and number of steps taken in it.
+    /// Index of the basis of the current states, and number of steps taken in it.
     number: usize,
     stayed: usize,
+    /// Previous states.
     history: History,
+    /// Pressure coefficients and rigid-body separation H₀ of the current state, and initial guess of the coefficients.
     coefficients: Vec<f64>,
     start: Vec<f64>,
     h_0: f64,
-    /// Prescribed change of H₀ plus 1, if H₀ and not the load is given; H₀ of the start; and whether a step is solved.
+    /// 1 + H₀(T) − H₀(0), if H₀ and not the load is prescribed.
     separation: Option<Signal>,
+    /// H₀(0).
     h_0_of_start: f64,
+    /// True if the present solve keeps H₀ and computes the load.
     prescribed: bool,
-    /// Equations at the previous states, the nearer one first; `None` before the march starts.
+    /// Conditions of the two previous states, the most recent first; `None` before the steady start.
     at: Option<[Conditions; 2]>,
-    /// Cavitation boundaries of these states, and that at the start of a step; empty with a penalty.
+    /// Cavitation boundaries of these states, and the initial guess of a step; empty with a penalty.
     fronts: [Vec<usize>; 2],
     front: Vec<usize>,
-    /// Pressures of the modes that the boundary removes, with their nodes.
+    /// Nodes beyond the cavitation boundary, with the pressures of the modes there, which count as zero.
     cut: Vec<(usize, f64)>,
     /// P and H at all nodes, used only for remeshing and for a change of the basis.
     fields: [Vec<f64>; 2],
@@ -67,7 +72,7 @@ pub struct ReducedMarch<'a> {
     observer: Option<StepObserver<'a>>,
 }
 
-/// Previous states in the basis with this number.
+/// Previous states, and the index of their basis.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct StepState {
     pub history: History,
@@ -89,7 +94,7 @@ impl<'a> ReducedMarch<'a> {
     /// Prepares the model for a march along `transient`.
     ///
     /// # Errors
-    /// [`ReducedError`] if the model is of another kind of contact, or of another cavitation model.
+    /// [`ReducedError`] if the kinds of contact or the cavitation models differ.
     pub fn new(model: &Arc<TrajectoryModel>, transient: &Transient) -> Result<Self, ReducedError> {
         let (own, given) = (model.window.grid.kind(), transient.point.kind);
         if own != given {
@@ -140,7 +145,7 @@ impl<'a> ReducedMarch<'a> {
         (kept.number, kept.stayed) = (self.number, self.stayed);
     }
 
-    /// Restores states stored by [`Self::keep`], with the conditions `at`, the nearer ones first.
+    /// Restores states stored by [`Self::keep`], with the conditions `at`, the most recent first.
     pub(super) fn restore(&mut self, kept: &StepState, at: [Conditions; 2]) {
         self.history.copy_from(&kept.history);
         self.fronts.iter_mut().zip(&kept.fronts).for_each(|(own, kept)| own.clone_from(kept));
@@ -151,7 +156,7 @@ impl<'a> ReducedMarch<'a> {
         self.h_0 = h_0;
     }
 
-    /// Returns true if these states can belong to this model.
+    /// Returns true if the sizes of stored states fit this model.
     pub(super) fn knows(&self, kept: &StepState) -> bool {
         let Some(part) = self.parts.get(kept.number) else { return false };
         let between = if matches!(self.model.frame, Frame::Remeshed(_)) { self.grid.len() } else { 0 };
@@ -166,7 +171,7 @@ impl<'a> ReducedMarch<'a> {
         self.h_0
     }
 
-    /// Passes every iterate to an observer, for a training.
+    /// Passes every iterate to an observer, for training.
     pub(crate) fn observe(&mut self, observer: StepObserver<'a>) {
         self.observer = Some(observer);
     }
@@ -226,7 +231,7 @@ impl<'a> ReducedMarch<'a> {
     }
 
     /// Runs Newton's method from the current state. After a failure it is repeated from `start`, without the
-    /// cavitation boundary and then with a softer penalty.
+    /// cavitation boundary and then with a smaller penalty.
     fn newton(&mut self, at: &Conditions, max_newton: usize) -> Result<Effort, Termination> {
         let (h_0, number) = (self.h_0, self.number);
         let window = self.model.numbered(number);
@@ -256,7 +261,7 @@ impl<'a> ReducedMarch<'a> {
         Err(Termination::Diverged)
     }
 
-    /// Stores the current state as the nearer previous one.
+    /// Stores the current state as the most recent previous one.
     fn remember(&mut self, at: &Conditions) {
         let operators = &mut self.parts[self.number].operators;
         self.history.remember(&self.coefficients, self.h_0, operators.flow());
@@ -311,7 +316,7 @@ impl<'a> ReducedMarch<'a> {
     }
 }
 
-/// Returns the contact at the end of a step.
+/// Returns the problem for Newton's method at the end of a step.
 fn case(at: &Conditions, penalty: f64, max_newton: usize) -> Case<'_> {
     let stop = Stop::new(TOLERANCE, max_newton);
     Case { problem: &at.problem, scale: 1.0, curvature: at.curvature, penalty, prescribed: false, stop }
