@@ -15,7 +15,6 @@ use crate::solver::full::heat::Rises;
 use crate::solver::full::response::{Dynamics, Maxwell, check_lubricant};
 use crate::solver::observer::{NewtonStep, Observer, WalkStep};
 use crate::solver::physics::bodies::Material;
-use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::engineering::UnitSystem;
 use crate::solver::training::TrainingObserver;
 use clap::Args;
@@ -141,7 +140,7 @@ impl SolveArgs {
 /// Runs the command.
 pub fn run(args: &SolveArgs) -> Result<Verdict, Failure> {
     let request = args.point.0.request()?;
-    if args.accuracy && (request.point.kind == ContactKind::Line || request.method != Method::Full) {
+    if args.accuracy && (request.point.kind.is_line() || request.method != Method::Full) {
         return Err(Failure::Request(
             "--accuracy belongs to full solutions of point contacts; add --contact point, or leave it out".to_owned(),
         ));
@@ -273,8 +272,7 @@ fn describe(result: &ContactResult, accuracy: Option<&GridAccuracy>, subsurface:
         line("R_y", format!("{radius_y_m:.6e} m, R_y/R {:.6}", point.radius_ratio()));
     }
     line("u_m", format!("{:.6e} m/s", point.speed_m_per_s));
-    let unit = if point.kind == ContactKind::Line { "N/m" } else { "N" };
-    line("w", format!("{:.6e} {unit}", point.load));
+    line("w", format!("{:.6e} {}", point.load, point.kind.load_unit()));
     line("E′", format!("{:.6e} Pa", point.modulus_pa));
     line("η₀", format!("{:.6e} Pa·s", point.viscosity_pa_s));
     line("α", format!("{:.6e} 1/Pa", point.alpha_per_pa));

@@ -3,7 +3,7 @@
 
 use super::table::significant;
 use crate::solver::full::Solution;
-use crate::solver::physics::contact::{ContactKind, FilmShape, Moes, OperatingPoint};
+use crate::solver::physics::contact::{FilmShape, Moes};
 use std::f64::consts::PI;
 
 /// Lubrication regime.
@@ -135,16 +135,9 @@ pub struct RegimeMap {
 impl RegimeMap {
     /// Prepares the estimate for a shape.
     pub fn new(shape: FilmShape) -> Self {
-        let (film, pressure) = match shape {
-            FilmShape::Line => (1.0, 1.0),
-            FilmShape::Ellipse(ratio) => {
-                let circle = OperatingPoint { kind: ContactKind::Point, ..OperatingPoint::TABLE_2_1 };
-                let radius_y_m = Some(ratio * circle.radius_m);
-                let (round, own) = (circle.hertz(), OperatingPoint { radius_y_m, ..circle }.hertz());
-                ((round.half_width_m / own.half_width_m).powi(2), own.pressure_pa / round.pressure_pa)
-            }
-        };
-        Self { shape, film, pressure }
+        let [own, circle] = shape.hertz_and_circle();
+        let film = (circle.half_width_m / own.half_width_m).powi(2);
+        Self { shape, film, pressure: own.pressure_pa / circle.pressure_pa }
     }
 
     /// Returns the estimated ratios at M and L.

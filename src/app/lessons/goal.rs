@@ -84,9 +84,7 @@ impl Goal {
         }
         let (first, rest) = words.split_once(' ')?;
         match first {
-            "contact" => {
-                [ContactKind::Line, ContactKind::Point].into_iter().find(|kind| kind.name() == rest).map(Self::Kind)
-            }
+            "contact" => ContactKind::from_name(rest).map(Self::Kind),
             "tab" => Tab::ALL.iter().find(|tab| tab.title() == rest).map(|tab| Self::Tab(*tab)),
             "lubricant" => {
                 let known = by_name(rest).ok()?;

@@ -6,7 +6,7 @@ use super::dense;
 use super::model::{Snapshot, Window};
 use crate::solver::discrete::heat::Profile;
 use crate::solver::parameters::{REFERENCE_ROUGHNESS_M, SHAPE_WEIGHT, separation};
-use crate::solver::physics::contact::{ContactKind, FilmFormula, OperatingPoint, moes_film};
+use crate::solver::physics::contact::{FilmFormula, FilmShape, OperatingPoint};
 use crate::solver::physics::surfaces::{mean_gap, separation_of_gap};
 use faer::Mat;
 
@@ -170,17 +170,15 @@ impl FilmUnit {
 /// Returns a film thickness formula in the solver's scaling up to a constant, to compare film thicknesses: Moes for
 /// line contacts, Hamrock and Dowson for circular, Chittenden for elliptical contacts.
 fn film_number(point: &OperatingPoint) -> f64 {
-    match point.kind {
-        ContactKind::Line => {
+    let formula = match FilmShape::of(point) {
+        FilmShape::Line => {
             let moes = point.moes();
-            moes_film(ContactKind::Line, moes) / moes.m
+            return FilmShape::Line.film(moes) / moes.m;
         }
-        ContactKind::Point => {
-            let ellipse = point.is_elliptic();
-            let formula = if ellipse { FilmFormula::ChittendenCentral } else { FilmFormula::HamrockDowsonCentral };
-            formula.predict(point).film_m / point.film_scale_m()
-        }
-    }
+        FilmShape::CIRCLE => FilmFormula::HamrockDowsonCentral,
+        FilmShape::Ellipse(_) => FilmFormula::ChittendenCentral,
+    };
+    formula.predict(point).film_m / point.film_scale_m()
 }
 
 /// Returns the nearest training solution by (3.20), with its film thickness scaled by the formula.

@@ -160,9 +160,12 @@ impl Varied {
                 // Both Moes numbers depend on the speed only through 2 η₀ u/(E′ R): (3.19), (3.22).
                 let speed = |group: f64| group * e * r / (2.0 * point.viscosity_pa_s);
                 let of_l = |l: f64| speed((l / (point.alpha_per_pa * e)).powi(4));
-                let of_m = |m: f64| match point.kind {
-                    ContactKind::Line => speed((point.load / (e * r * m)).powi(2)),
-                    ContactKind::Point => speed((point.load / (e * r * r * m)).powf(4.0 / 3.0)),
+                let of_m = |m: f64| {
+                    if point.kind.is_line() {
+                        speed((point.load / (e * r * m)).powi(2))
+                    } else {
+                        speed((point.load / (e * r * r * m)).powf(4.0 / 3.0))
+                    }
                 };
                 let (m, l) = (domain.m(), domain.l());
                 let ends = (of_l(l.0).max(of_m(m.1)), of_l(l.1).min(of_m(m.0)));
@@ -213,7 +216,7 @@ impl Against {
 
     /// Returns true if the quantity exists for a kind of contact.
     pub fn is_of(self, kind: ContactKind) -> bool {
-        self != Self::RadiusRatio || kind == ContactKind::Point
+        self != Self::RadiusRatio || kind.is_point()
     }
 
     /// Returns the varied quantity.
@@ -290,10 +293,7 @@ impl Against {
         match self {
             Self::SlideToRoll | Self::Plateau | Self::Speed | Self::RadiusRatio => place,
             Self::Stribeck => place * point.load / point.viscosity_pa_s,
-            Self::LoadNumber => {
-                let exponent = if point.kind == ContactKind::Line { 0.5f64 } else { 0.75 };
-                point.speed_m_per_s * (point.moes().m / place).powf(1.0 / exponent)
-            }
+            Self::LoadNumber => point.speed_m_per_s * (point.moes().m / place).powf(1.0 / point.kind.speed_power()),
         }
     }
 }

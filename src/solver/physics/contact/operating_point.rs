@@ -201,10 +201,7 @@ impl OperatingPoint {
     /// Returns the same contact under the load at which the Hertzian pressure is this one \[Pa\], above 0.
     pub fn at_hertz_pressure(mut self, pressure_pa: f64) -> Self {
         let ratio = pressure_pa / self.hertz().pressure_pa;
-        self.load *= match self.kind {
-            ContactKind::Line => ratio.powi(2),
-            ContactKind::Point => ratio.powi(3),
-        };
+        self.load *= ratio.powi(self.kind.radius_power() + 1);
         self
     }
 
@@ -228,7 +225,7 @@ impl OperatingPoint {
         let (e, r) = (self.modulus_pa, self.radius_m);
         let m = match self.kind {
             ContactKind::Line => self.load / (e * r * u.sqrt()),
-            ContactKind::Point => self.load / (e * r * r * u.powf(0.75)),
+            ContactKind::Point => self.load / (e * r * r * u.powf(self.kind.speed_power())),
         };
         Moes { m, l: self.alpha_per_pa * e * u.powf(0.25) }
     }
@@ -255,10 +252,7 @@ impl OperatingPoint {
     /// a/w for a line contact, ab/w for a point contact.
     pub fn area_per_load(&self) -> f64 {
         let Hertz { half_width_m, half_length_m, .. } = self.hertz();
-        match self.kind {
-            ContactKind::Line => half_width_m / self.load,
-            ContactKind::Point => half_width_m * half_length_m / self.load,
-        }
+        if self.kind.is_line() { half_width_m / self.load } else { half_width_m * half_length_m / self.load }
     }
 
     /// Returns the piezoviscous parameter α p_H \[-\], the exponent of the viscosity rise in the contact.
