@@ -150,16 +150,17 @@ impl Outputs {
 /// The potential ln(|x − s|/d) of a line load contains a length d, on which h₀ depends. For h₀ it is `length_m`, such
 /// as the half width of (2.27), which changes with the load. For the approach it is [`approach_reference`].
 fn approach(point: &OperatingPoint, separation_m: f64, length_m: f64) -> f64 {
-    let elastic = match point.kind {
-        ContactKind::Line => 4.0 * point.load / (PI * point.modulus_pa) * (length_m / approach_reference(point)).ln(),
-        ContactKind::Point => 0.0,
+    let elastic = if point.kind.is_line() {
+        4.0 * point.load / (PI * point.modulus_pa) * (length_m / approach_reference(point)).ln()
+    } else {
+        0.0
     };
     -separation_m - elastic
 }
 
 /// Returns the reference distance for the approach of a line contact: R \[m\], independent of the load.
 fn approach_reference(point: &OperatingPoint) -> f64 {
-    if point.kind == ContactKind::Line { point.radius_m } else { f64::NAN }
+    if point.kind.is_line() { point.radius_m } else { f64::NAN }
 }
 
 impl Inputs {
@@ -179,7 +180,7 @@ impl Inputs {
 
     /// Returns the contact that the inputs define under a load.
     fn stated(&self, kind: ContactKind, load: f64) -> ContactSpec {
-        let ellipse = kind == ContactKind::Point && self.radius_ratio != 1.0;
+        let ellipse = kind.is_point() && self.radius_ratio != 1.0;
         ContactSpec {
             contact: Some(kind),
             radius: Some(self.radius_m),

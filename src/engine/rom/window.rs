@@ -4,7 +4,6 @@ use super::container::{Contents, Writer};
 use super::error::{ModelFileError, damaged};
 use super::sound::are_rows;
 use crate::solver::discrete::grid::ContactGrid;
-use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::Sliding;
 use crate::solver::reduced::{
     Combined, Keeping, PodBasis, PressureModes, RULE_ACCURACY, SampledRows, Sampling, Scheme, SharedBasis, Snapshot,
@@ -114,7 +113,7 @@ impl Rounding {
     pub fn accuracies(self, window: &Window) -> [f64; 2] {
         match self.keeping(window).map(Keeping::accuracy) {
             None => TRANSIENT,
-            Some(accuracy) if window.grid.kind() == ContactKind::Line => [accuracy; 2],
+            Some(accuracy) if window.grid.kind().is_line() => [accuracy; 2],
             Some(accuracy) => [accuracy, BENT_ACCURACY],
         }
     }

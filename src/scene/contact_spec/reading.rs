@@ -2,7 +2,6 @@
 
 use super::fields::{ContactSpec, Field};
 use super::refusal::{Refusal, refuse};
-use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::engineering::{Dimension, parse};
 
 impl ContactSpec {
@@ -18,7 +17,7 @@ impl ContactSpec {
             let unit = if unit.is_empty() { facts.bare.unwrap_or_else(|| dimension.si_unit()) } else { unit };
             // A force is the load of a line contact over its whole length.
             if field == Field::Load
-                && self.kind() == ContactKind::Line
+                && self.kind().is_line()
                 && parse(text, dimension, unit).is_err()
                 && let Ok(total) = parse(text, Dimension::Force, unit)
             {

@@ -10,7 +10,6 @@
 
 use super::cubature::GoalEquations;
 use crate::solver::discrete::grid::ContactGrid;
-use crate::solver::physics::contact::ContactKind;
 use serde::{Deserialize, Serialize};
 
 /// Number of nodes of a quadrature for point contacts. The error is 4e-4 (95 %) for thermal circular contacts, below
@@ -50,10 +49,7 @@ impl TractionRule {
     /// are selected among those of the sampled equations and some of the grid. `None` if there are too few solutions,
     /// or if the fit fails.
     pub fn fit(grid: &ContactGrid, sampled_rows: &[usize], stresses: &[Vec<f64>]) -> Option<Self> {
-        let most = match grid.kind() {
-            ContactKind::Line => NODES_OF_LINE,
-            ContactKind::Point => NODES,
-        };
+        let most = if grid.kind().is_line() { NODES_OF_LINE } else { NODES };
         let quadrature = quadrature(grid);
         let (_, across) = grid.nodes();
         let between = |node: &usize| (node / across).is_multiple_of(BETWEEN) && (node % across).is_multiple_of(BESIDE);
@@ -106,7 +102,7 @@ mod tests {
     use super::*;
     use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
     use crate::solver::full::{ContactSolver, Start};
-    use crate::solver::physics::contact::{MoesRequest, OperatingPoint, Sliding, si_from_moes};
+    use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, Sliding, si_from_moes};
     use crate::solver::physics::lubricant::Lubricant;
 
     #[test]

@@ -3,7 +3,6 @@
 use super::spec::{Plan, TrainingSpec, WindowSpec, Windows};
 use crate::solver::limits::{Refused, count, interval, number, plain};
 use crate::solver::parameters::Quantity;
-use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::{Cavitation, LARGEST_HEATED_SRR, ShearLaw, ViscosityLaw};
 use crate::solver::reduced::{LEAST_EVIDENCE, LEAST_OF_WINDOW, Sampling, Scheme};
 
@@ -143,7 +142,7 @@ fn lubricant(spec: &TrainingSpec) -> Result<(), Refused> {
         }
         Cavitation::Penalty | Cavitation::Complementarity => {}
     }
-    if range.of_ellipses() && spec.contact() != ContactKind::Point {
+    if range.of_ellipses() && spec.contact().is_line() {
         return refuse("range", "is of elliptical contacts, but the windows' grids are of line contacts");
     }
     if range.of_ellipses() && shear_thinning && !heat {
@@ -195,7 +194,7 @@ fn rough(spec: &TrainingSpec) -> Result<(), Refused> {
     if laws.roughness.is_none() {
         return refuse("range.axes.SmoothFilmRatio", "needs the laws of rough surfaces");
     }
-    if spec.contact() == ContactKind::Point && laws.roughness.is_some_and(|roughness| roughness.peklenik != 1.0) {
+    if spec.contact().is_point() && laws.roughness.is_some_and(|roughness| roughness.peklenik != 1.0) {
         return refuse("roughness.peklenik", "must be 1 for a reduced model of rough circular contacts");
     }
     if range.slides() || laws.shear != ShearLaw::Newtonian {

@@ -218,12 +218,12 @@ impl TrainingSpec {
     /// Returns true if reduced solutions have temperatures along the lines of a plane, for which a solve with all
     /// rows is a hundred times as expensive.
     pub(super) fn warms_a_plane(&self) -> bool {
-        self.heats() && self.contact() == ContactKind::Point
+        self.heats() && self.contact().is_point()
     }
 
     /// Returns true if reduced solutions have temperatures along a line.
     pub(super) fn warms_a_line(&self) -> bool {
-        self.heats() && self.contact() == ContactKind::Line
+        self.heats() && self.contact().is_line()
     }
 
     /// Returns true for thermal contacts.
