@@ -268,8 +268,8 @@ fn describe(result: &ContactResult, accuracy: Option<&GridAccuracy>, subsurface:
         line("warning", result.warning());
     }
     line("R", format!("{:.6e} m", point.radius_m));
-    if let Some(radius_y_m) = point.radius_y_m {
-        line("R_y", format!("{radius_y_m:.6e} m, R_y/R {:.6}", point.radius_ratio()));
+    if let (Some(radius_y_m), Some(ratio)) = (point.radius_y_m, point.stated_ratio()) {
+        line("R_y", format!("{radius_y_m:.6e} m, R_y/R {ratio:.6}"));
     }
     line("u_m", format!("{:.6e} m/s", point.speed_m_per_s));
     line("w", format!("{:.6e} {}", point.load, point.kind.load_unit()));

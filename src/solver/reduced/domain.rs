@@ -2,7 +2,7 @@
 //! is inside.
 
 use crate::solver::full::{Problem, SolveError};
-use crate::solver::parameters::{CIRCLES, Outside, ParameterSpace, Quantity, REFERENCE_ROUGHNESS_M, enlarged};
+use crate::solver::parameters::{Outside, ParameterSpace, Quantity, REFERENCE_ROUGHNESS_M, enlarged};
 use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
 use crate::solver::physics::lubricant::{Lubricant, LubricantOfModel, ShearLaw};
 use crate::solver::physics::surfaces::Roughness;
@@ -225,7 +225,7 @@ impl Domain {
     }
 
     fn other_shape(&self, point: &OperatingPoint) -> Option<Outside> {
-        let ellipse = self.space.radius_ratio() == CIRCLES && point.is_elliptic();
+        let ellipse = !self.space.of_ellipses() && point.is_elliptic();
         ellipse.then(|| Outside::Other("the model was trained for circular contacts only".to_owned()))
     }
 

@@ -118,7 +118,7 @@ fn coordinates(point: &OperatingPoint) -> [f64; 6] {
     let (moes, sliding) = (point.moes(), point.sliding);
     let plateau = sliding.newtonian_plateau_ratio.unwrap_or(1.0);
     let squares = [0.5, 0.001, ALPHA_WEIGHT, 0.03, 0.3, SHAPE_WEIGHT];
-    let (log_alpha, log_ratio) = (point.alpha_per_pa.ln(), point.radius_ratio().ln());
+    let (log_alpha, log_ratio) = (point.alpha_per_pa.ln(), point.log_ratio());
     let values = [moes.m.ln(), moes.l, log_alpha, sliding.slide_to_roll_ratio.abs(), plateau, log_ratio];
     std::array::from_fn(|k| f64::sqrt(squares[k]) * values[k])
 }
@@ -231,7 +231,7 @@ pub(super) fn interpolated(window: &Window, point: &OperatingPoint, thinning: bo
             let m = s.moes();
             let (dl, d_alpha) = (0.2 * (m.l - moes.l), s.alpha_per_pa.ln() - log_alpha);
             let [first, second] = match window.shapes {
-                Some(_) => [(s.radius_ratio() / point.radius_ratio()).ln(), 0.0],
+                Some(_) => [s.log_ratio_over(point), 0.0],
                 None => [srr(s) - srr(point), plateau(s) - plateau(point)],
             };
             [1.0, (m.m / moes.m).ln(), dl, d_alpha, first, second]

@@ -143,7 +143,7 @@ impl Within {
         let mut pool = self.random_points((40 * count).max(2000), rng);
         // The corners of the range are its extremes, which a random pool never quite reaches.
         pool.extend(self.range.corners().filter_map(|corner| self.at(corner)));
-        let place = |p: &OperatingPoint| (p.moes(), p.alpha_per_pa.ln(), p.sliding, p.radius_ratio().ln());
+        let place = |p: &OperatingPoint| (p.moes(), p.alpha_per_pa.ln(), p.sliding, p.log_ratio());
         let by_metric = self.range.varies_lubricant() || self.range.is_rough();
         let metric = by_metric.then(|| Metric::of_plan(&self.range, self.heat));
         let coordinates: Vec<_> = pool.iter().map(place).collect();

@@ -114,6 +114,26 @@ impl OperatingPoint {
         self.radius_y_m.map_or(1.0, |radius_y| radius_y / self.radius_m)
     }
 
+    /// Returns R_y/R_x of a contact with a stated radius across; `None` without one.
+    pub fn stated_ratio(&self) -> Option<f64> {
+        self.radius_y_m.map(|_| self.radius_ratio())
+    }
+
+    /// Returns ln R_y/R_x; 0 for circular and line contacts.
+    pub fn log_ratio(&self) -> f64 {
+        self.radius_ratio().ln()
+    }
+
+    /// Returns the logarithm of R_y/R_x over that of another contact.
+    pub fn log_ratio_over(&self, other: &Self) -> f64 {
+        (self.radius_ratio() / other.radius_ratio()).ln()
+    }
+
+    /// Returns true for an elliptical contact that is long along the rolling direction: R_y is smaller than R_x.
+    pub fn is_narrow(&self) -> bool {
+        self.radius_ratio() < 1.0
+    }
+
     /// Returns true for an elliptical contact, false for a circular or line contact.
     pub fn is_elliptic(&self) -> bool {
         self.radius_ratio() != 1.0
