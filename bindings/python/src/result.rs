@@ -43,9 +43,8 @@ impl Fields {
 
     /// Moves the fields of a solution into arrays.
     fn of(py: Python<'_>, solution: Solution) -> PyResult<Self> {
-        // The node arrays of a line contact begin with a node outside the inlet.
         let line = solution.problem.point.kind.is_line();
-        let skipped = usize::from(line);
+        let skipped = solution.mesh.spec.first_column();
         let (nx, ny) = (solution.x.len(), solution.y.len());
         let shape = if line { vec![nx] } else { vec![nx, ny] };
         let field = |values: Vec<f64>| Ok::<_, PyErr>(from_row(shaped(py, values, &shape)?, skipped)?.unbind());

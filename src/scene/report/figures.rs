@@ -20,7 +20,7 @@ const PIXELS: [usize; 2] = [280, 240];
 /// Returns the figures of a report. The first answer is the reference, to which the stress field belongs.
 pub fn of(solved: &[Answer], stress: Option<&SubsurfaceStress>, system: UnitSystem) -> Vec<Chart> {
     let Some(solution) = solved.first().and_then(Answer::fields) else { return Vec::new() };
-    let map = (solution.problem.point.kind.is_point()).then(|| film_map(solution, system));
+    let map = solution.problem.point.kind.is_point().then(|| film_map(solution, system));
     profiles(solved, system)
         .into_iter()
         .chain(map)

@@ -109,7 +109,7 @@ impl Solution {
 
     /// Returns the index of the first abscissa inside the domain.
     pub(super) fn first(&self) -> usize {
-        if self.mesh.spec.kind().is_line() { 1 } else { 0 }
+        self.mesh.spec.first_column()
     }
 
     /// Returns the profile along the axis Y = 0 from inlet to outlet: X, P, H.

@@ -85,8 +85,7 @@ impl TractionRule {
 /// Returns the trapezoidal rule over a grid in ξ and Y, over both halves of a point contact.
 fn quadrature(grid: &ContactGrid) -> Vec<f64> {
     let (xi, y) = grid.abscissae();
-    // The node array of a line contact has one node outside the inlet.
-    let first = xi.len() - grid.nodes().0;
+    let first = grid.first_column();
     let cell = |at: &[f64], i: usize, first: usize| {
         let west = if i > first { at[i] - at[i - 1] } else { 0.0 };
         let east = at.get(i + 1).map_or(0.0, |next| next - at[i]);

@@ -289,7 +289,7 @@ fn given(spec: &TrainingSpec, windows: &[WindowSpec]) -> Result<(), Refused> {
     if windows.iter().any(|w| w.grid.kind() != spec.contact()) {
         return refuse("must be of one kind of contact: all grids Plane, or none".to_owned());
     }
-    let descend = |pair: &[WindowSpec]| pair[0].radius_ratio == pair[1].radius_ratio && pair[0].m.1 > pair[1].m.0;
+    let descend = |pair: &[WindowSpec]| pair[0].has_shapes_of(&pair[1]) && pair[0].m.1 > pair[1].m.0;
     if windows.iter().any(|w| w.m.0 >= w.m.1) || windows.windows(2).any(descend) {
         return refuse("must be non-empty intervals of M in ascending order".to_owned());
     }

@@ -343,6 +343,11 @@ impl WindowSpec {
         Self { m, grid, radius_ratio: None, anchor: None, pressure_loss: None }
     }
 
+    /// Returns the interval of R_y/R to which the local model is restricted; all numbers above 0 without one.
+    pub(super) fn served_ratios(&self) -> (f64, f64) {
+        self.radius_ratio.unwrap_or((0.0, f64::INFINITY))
+    }
+
     /// Returns true if another local model has the same radius ratios.
     pub(super) fn has_shapes_of(&self, other: &Self) -> bool {
         self.radius_ratio == other.radius_ratio

@@ -129,7 +129,5 @@ fn shapes(
 /// weights and are hard to compare.
 fn mode_points(basis: &PodBasis, grid: &ContactGrid, k: usize) -> Vec<PlotPoint> {
     let points = plane::scaled(basis, k).into_iter().enumerate().map(|(node, v)| (grid.place(node), v));
-    // The node arrays of a line contact start with a node outside the inlet.
-    let outside = usize::from(grid.kind().is_line());
-    points.filter(|((_, y), _)| *y == 0.0).skip(outside).map(|((xi, _), v)| PlotPoint::new(xi, v)).collect()
+    points.filter(|((_, y), _)| *y == 0.0).skip(grid.first_column()).map(|((xi, _), v)| PlotPoint::new(xi, v)).collect()
 }
