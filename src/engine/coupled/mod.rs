@@ -166,6 +166,7 @@ fn approach_reference(point: &OperatingPoint) -> f64 {
 impl Inputs {
     /// All inputs zero.
     const NONE: Self = Self::from_numbers([0.0; Self::COUNT]);
+
     /// Number of inputs.
     pub const COUNT: usize = 10;
 

@@ -49,7 +49,8 @@ pub(super) struct WindowEntry {
 }
 
 impl WindowEntry {
-    /// Returns true if it is of elliptical contacts, for `ellipses`, with a sound range of R_y/R, or else of others.
+    /// Returns true if its range of R_y/R is sound: an accepted interval in a model of elliptical contacts
+    /// (`ellipses`), absent in any other model.
     pub fn has_sound_shapes(&self, ellipses: bool) -> bool {
         let sound =
             |(low, high): (f64, f64)| Ellipse::of_ratio(low).is_ok() && Ellipse::of_ratio(high).is_ok() && low < high;

@@ -1,7 +1,7 @@
 //! The four asymptotes of the film thickness, and formulas that join them: Moes' for line contacts, and that of
 //! Nijenbanning, Venner and Moes for elliptical contacts.
 
-use super::{ContactKind, Ellipse, Hertz, Moes, OperatingPoint};
+use super::{ContactKind, Hertz, Moes, OperatingPoint};
 use std::f64::consts::PI;
 
 /// The four asymptotes of a film number H = (h/R)(2U)^(−1/2), as joined by the formulas of Moes and of Nijenbanning,
@@ -142,14 +142,14 @@ fn ellipse_film(radius_ratio: f64, moes: Moes) -> f64 {
 
 /// Returns the central film thickness H_c in units of a²/R by the formula for a contact's shape, [`FilmShape::film`].
 pub fn expected_film(point: &OperatingPoint) -> f64 {
-    let moes = point.moes();
-    let film = FilmShape::of(point).film(moes);
-    match point.kind {
+    let (shape, moes) = (FilmShape::of(point), point.moes());
+    let film = shape.film(moes);
+    match shape {
         // (a/R)² = (8/π) M √(2U) of a line contact, and h/R = Ĥ √(2U).
-        ContactKind::Line => film * PI / (8.0 * moes.m),
+        FilmShape::Line => film * PI / (8.0 * moes.m),
         // (a/R)³ = (3J_x/π) M (2U)^¾ of an elliptical contact, where J_x = π/2 for a circular one.
-        ContactKind::Point if point.ellipse() == Ellipse::CIRCLE => film * (1.5 * moes.m).powf(-2.0 / 3.0),
-        ContactKind::Point => film * (3.0 * point.ellipse().integral * moes.m / PI).powf(-2.0 / 3.0),
+        FilmShape::CIRCLE => film * (1.5 * moes.m).powf(-2.0 / 3.0),
+        FilmShape::Ellipse(_) => film * (3.0 * point.ellipse().integral * moes.m / PI).powf(-2.0 / 3.0),
     }
 }
 
