@@ -28,7 +28,6 @@ use crate::app::{panels, theme};
 use crate::engine::Store;
 use crate::host::browser;
 use crate::host::clock::Stopwatch;
-use crate::solver::physics::contact::ContactKind;
 use crate::solver::reduced::ReducedModel;
 use egui::{CentralPanel, Panel, ScrollArea, Ui};
 use egui_tiles::Tree;
@@ -390,7 +389,7 @@ impl Explorer {
     /// Returns true if only transient views are visible. The read-outs then show their displayed time.
     fn shows_in_time(&self) -> bool {
         // The map of a point contact shows the steady contact.
-        let line = self.desk.document.point.kind == ContactKind::Line;
+        let line = self.desk.document.point.kind.is_line();
         let in_time = |tab| matches!(tab, Tab::Transient | Tab::Tpwl) || line && tab == Tab::ContactMap;
         self.desk.document.no_transient().is_none() && self.tabs_in_front().all(in_time)
     }

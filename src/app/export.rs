@@ -5,7 +5,7 @@ use super::answers::picture::{Cuts, Picture, value_at};
 use super::numbers;
 use crate::engine::Table;
 use crate::solver::full::heat::Rises;
-use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::engineering::UnitSystem;
 use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
 use egui_plot::PlotPoint;
@@ -33,10 +33,7 @@ pub fn describe(picture: &Picture) -> String {
 /// Returns the parameters of a contact in one line.
 pub fn describe_contact(point: &OperatingPoint, lubricant: &Lubricant) -> String {
     let moes = point.moes();
-    let unit = match point.kind {
-        ContactKind::Line => "N/m",
-        ContactKind::Point => "N",
-    };
+    let unit = point.kind.load_unit();
     let sliding = match (point.sliding.slide_to_roll_ratio, lubricant.shear) {
         (0.0, ShearLaw::Newtonian) => String::new(),
         (srr, ShearLaw::Newtonian) => format!("; SRR {srr:e}"),

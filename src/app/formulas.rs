@@ -136,7 +136,7 @@ pub fn table(ui: &mut Ui, context: &Context<'_>) {
     });
     ui.add_space(4.0);
     ui.weak(RichText::new("Grey: outside the range a formula was fitted to. Sources appear on hover.").small());
-    if context.document.point.radius_ratio() < 1.0 {
+    if context.document.point.is_narrow() {
         warning_ui(
             ui,
             "Hamrock–Dowson is 15–75 % too high for R_y smaller than R: it was fitted to ellipses that are long across \

@@ -158,8 +158,8 @@ pub fn moes(Moes { m, l }: Moes) -> String {
 /// Returns M and L of a contact, and R_y/R of an elliptical one.
 pub fn contact(point: &OperatingPoint) -> String {
     let moes = moes(point.moes());
-    match point.radius_y_m {
-        Some(_) => format!("{moes}, R_y/R {}", significant(point.radius_ratio())),
+    match point.stated_ratio() {
+        Some(ratio) => format!("{moes}, R_y/R {}", significant(ratio)),
         None => moes,
     }
 }

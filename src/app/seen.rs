@@ -6,7 +6,7 @@ use super::{Explorer, badge, panels};
 use crate::scene::Table;
 use crate::solver::full::Problem;
 use crate::solver::parameters::Quantity;
-use crate::solver::physics::contact::{ContactKind, Moes, OperatingPoint};
+use crate::solver::physics::contact::{Moes, OperatingPoint};
 use crate::solver::physics::lubricant::Lubricant;
 
 impl Explorer {
@@ -41,7 +41,7 @@ impl Explorer {
 
     /// Returns true if the contact of the sliders is a point contact.
     pub fn is_point(&self) -> bool {
-        self.desk.document.point.kind == ContactKind::Point
+        self.desk.document.point.kind.is_point()
     }
 
     /// Returns the number of nodes along X and across of the picture's grid.

@@ -15,7 +15,6 @@ use crate::scene::named_lubricant::NAMED;
 use crate::scene::{Scene, View};
 use crate::solver::discrete::grid::PointGridSpec;
 use crate::solver::parameters::Quantity;
-use crate::solver::physics::contact::{ContactKind, moes_film};
 use crate::solver::physics::lubricant::{Cavitation, Lubricant, ShearLaw};
 use egui_kittest::Harness;
 use fastrand::Rng;
@@ -130,7 +129,7 @@ fn change(rng: &mut Rng, window: &mut Window) -> String {
         5 | 6 => Edit::Heat(lubricant.heat.is_none()),
         7 | 8 => {
             let point = &document.point;
-            let film_m = moes_film(point.kind, point.moes()) * point.radius_m * point.speed_group().sqrt();
+            let film_m = point.formula_film_m();
             let supply_film_m = rng.bool().then(|| film_m * log(rng, SUPPLIES.0, SUPPLIES.1));
             let cavitation = match rng.u8(..4) {
                 0 => Cavitation::Penalty,
@@ -198,7 +197,7 @@ fn requests_do_not_depend_on_earlier_ones() {
         for _ in 0..CHANGES {
             changes.push(change(&mut rng, &mut dragged));
             let desk = &dragged.state().desk;
-            if desk.document.point.kind == ContactKind::Point && !PLANES.contains(&desk.document.plane()) {
+            if desk.document.point.kind.is_point() && !PLANES.contains(&desk.document.plane()) {
                 edit(&mut dragged, Edit::Plane(PLANES[[0, 0, 0, 1, 1, 2][rng.usize(..6)]]));
             }
             dragged.step();

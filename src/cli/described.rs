@@ -4,7 +4,6 @@ use crate::engine::{ContactResult, GridAccuracy};
 use crate::scene::{ContactDynamics, Subsurface, names};
 use crate::solver::full::heat::Rises;
 use crate::solver::full::response::{Dynamics, Maxwell};
-use crate::solver::physics::contact::ContactKind;
 use std::fmt::Write;
 
 /// Values with nine decimals: their names here and in a result.
@@ -83,12 +82,11 @@ pub fn result(result: &ContactResult, accuracy: Option<&GridAccuracy>, subsurfac
         line("warning", result.warning());
     }
     line("R", format!("{:.6e} m", point.radius_m));
-    if let Some(radius_y_m) = point.radius_y_m {
-        line("R_y", format!("{radius_y_m:.6e} m, R_y/R {:.6}", point.radius_ratio()));
+    if let (Some(radius_y_m), Some(ratio)) = (point.radius_y_m, point.stated_ratio()) {
+        line("R_y", format!("{radius_y_m:.6e} m, R_y/R {ratio:.6}"));
     }
     line("u_m", format!("{:.6e} m/s", point.speed_m_per_s));
-    let unit = if point.kind == ContactKind::Line { "N/m" } else { "N" };
-    line("w", format!("{:.6e} {unit}", point.load));
+    line("w", format!("{:.6e} {}", point.load, point.kind.load_unit()));
     line("E′", format!("{:.6e} Pa", point.modulus_pa));
     line("η₀", format!("{:.6e} Pa·s", point.viscosity_pa_s));
     line("α", format!("{:.6e} 1/Pa", point.alpha_per_pa));

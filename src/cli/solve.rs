@@ -15,7 +15,6 @@ use crate::solver::full::Solution;
 use crate::solver::full::response::check_lubricant;
 use crate::solver::observer::{NewtonStep, Observer, WalkStep};
 use crate::solver::physics::bodies::Material;
-use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::engineering::UnitSystem;
 use crate::solver::training::TrainingObserver;
 use clap::Args;
@@ -111,7 +110,7 @@ impl SolveArgs {
 /// Runs the command.
 pub fn run(args: &SolveArgs) -> Result<Verdict, Failure> {
     let request = args.point.0.request()?;
-    if args.accuracy && (request.point.kind == ContactKind::Line || request.method != Method::Full) {
+    if args.accuracy && (request.point.kind.is_line() || request.method != Method::Full) {
         return Err(Failure::Request(
             "--accuracy belongs to full solutions of point contacts; add --contact point, or leave it out".to_owned(),
         ));

@@ -8,7 +8,7 @@ use crate::solver::full::heat::Temperatures;
 use crate::solver::full::point::resolution_warning;
 use crate::solver::full::{ContactSolver, Problem, Start};
 use crate::solver::observer::Observer;
-use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::{Online, ReducedError, ReducedModel, ReducedSolution, Trust, Window};
 use crate::solver::warning::Warning;
@@ -79,11 +79,9 @@ fn in_full(
     let solution = solver.judged(solution);
     let report = &solution.report;
     let (nx, ny) = (solution.x.len(), solution.y.len());
-    let (nodes, dofs) = match request.point.kind {
-        // Node arrays of a line contact have one node outside the inlet.
-        ContactKind::Line => ((nx - 1, 1), nx - 2),
-        ContactKind::Point => ((nx, ny), (nx - 2) * (ny - 1) + 1),
-    };
+    let nodes = (nx - solution.mesh.spec.first_column(), ny);
+    // All pressures inside the domain, and the separation.
+    let dofs = if request.point.kind.is_line() { nx - 2 } else { (nx - 2) * (ny - 1) + 1 };
     let (newton_iterations, linear_iterations) = (report.newton_iterations, Some(report.linear_iterations));
     let effort = Effort { nodes, dofs, newton_iterations, linear_iterations, wall_s };
     let mut result = ContactResult::new(request, Some(&solution), None, effort);

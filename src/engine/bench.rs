@@ -174,15 +174,12 @@ impl Bench {
 
     /// Returns the online solver with the embedded model of a row. Adds a note if there is none.
     fn online(&mut self, row: &str, kind: ContactKind, shear: ShearLaw) -> Option<Online> {
-        let name = match (kind, shear) {
-            (ContactKind::Line, ShearLaw::Newtonian) => "line",
-            (ContactKind::Line, ShearLaw::Eyring { .. }) => "line_sliding",
-            (ContactKind::Line, _) => "line_shear",
-            (ContactKind::Point, ShearLaw::Newtonian) => "point",
-            (ContactKind::Point, ShearLaw::Eyring { .. }) => "point_sliding",
-            (ContactKind::Point, _) => "point_shear",
+        let name = match shear {
+            ShearLaw::Newtonian => kind.name().to_owned(),
+            ShearLaw::Eyring { .. } => format!("{}_sliding", kind.name()),
+            _ => format!("{}_shear", kind.name()),
         };
-        let model = self.model(row, name);
+        let model = self.model(row, &name);
         model.map(|model| Online::new(model, ReducedOptions::default()))
     }
 
@@ -240,7 +237,7 @@ fn shear_problems(kind: ContactKind, count: usize) -> Result<Vec<Problem>, Engin
             radius_m: 12.7e-3,
             speed_m_per_s: 0.1 * 50f64.powf(random.f64()),
             // The load of the line contact gives the same Hertzian pressure as 23 N on the point contact.
-            load: if kind == ContactKind::Line { 144e3 } else { 23.0 },
+            load: if kind.is_line() { 144e3 } else { 23.0 },
             modulus_pa: 1.2388e11,
             viscosity_pa_s: 0.0705,
             alpha_per_pa: 2e-8,

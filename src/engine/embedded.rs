@@ -136,10 +136,7 @@ pub fn in_time(kind: ContactKind) -> Result<Arc<TrajectoryModel>, ModelFileError
     static LINE: OnceLock<Arc<TrajectoryModel>> = OnceLock::new();
     static POINT: OnceLock<Arc<TrajectoryModel>> = OnceLock::new();
     let [(line, _), (point, _)] = IN_TIME;
-    let (name, model) = match kind {
-        ContactKind::Line => (line, &LINE),
-        ContactKind::Point => (point, &POINT),
-    };
+    let (name, model) = if kind.is_line() { (line, &LINE) } else { (point, &POINT) };
     if let Some(model) = model.get() {
         return Ok(Arc::clone(model));
     }

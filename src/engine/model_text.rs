@@ -4,7 +4,6 @@ use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::transient::{Inputs, Signal};
 use crate::solver::limits::digits;
 use crate::solver::parameters::Quantity;
-use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::{Cavitation, Lubricant};
 use crate::solver::reduced::transient::TrajectoryModel;
 use crate::solver::reduced::{Domain, ReducedModel, Scheme, Window};
@@ -13,10 +12,8 @@ use std::fmt::Write;
 /// Describes a transient model.
 pub fn describe_in_time(model: &TrajectoryModel) -> String {
     let (domain, window) = (&model.domain, &model.window);
-    let (contacts, unit) = match window.grid.kind() {
-        ContactKind::Line => ("line", "N/m"),
-        ContactKind::Point => ("circular", "N"),
-    };
+    let kind = window.grid.kind();
+    let (contacts, unit) = (if kind.is_line() { "line" } else { "circular" }, kind.load_unit());
     let mut text = format!("{}\n  transient {contacts} contacts, frame {:?}\n", model.title, model.frame);
     // Writing to a string cannot fail.
     text.push_str(&describe_domain(&domain.reference));

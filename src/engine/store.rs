@@ -262,10 +262,7 @@ fn lock<T>(shelf: &Mutex<T>) -> MutexGuard<'_, T> {
 }
 
 fn kept_of(kind: ContactKind) -> usize {
-    match kind {
-        ContactKind::Line => KEPT_LINES,
-        ContactKind::Point => KEPT_POINTS,
-    }
+    if kind.is_line() { KEPT_LINES } else { KEPT_POINTS }
 }
 
 /// Removes and returns the most recently used matching object.

@@ -149,7 +149,7 @@ impl Bench for Workbench {
         };
         match spec {
             Some(spec) => Ok(self.store.grid(spec).map_err(SolveError::from)?),
-            None if kind == ContactKind::Point && request.grid != Grid::Model => {
+            None if kind.is_point() && request.grid != Grid::Model => {
                 Err(EngineError::Study("a point contact needs a Plane `grid`, Model, or none".to_owned()))
             }
             None => {

@@ -5,7 +5,7 @@ use super::extras::Extras;
 use super::names;
 use crate::solver::full::heat::{Rises, Temperatures};
 use crate::solver::full::{GridCost, Mixed, Scalars, Solution};
-use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::engineering::{Extent, Losses};
 use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::{ErrorEstimate, ModelSize};
@@ -255,7 +255,7 @@ const VALUES: [(&str, In, Get); names::ALL.len()] = [
 ];
 
 fn is_point(result: &ContactResult) -> bool {
-    result.point.kind == ContactKind::Point
+    result.point.kind.is_point()
 }
 
 fn number(value: f64) -> Option<Value> {

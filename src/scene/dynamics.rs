@@ -32,17 +32,15 @@ impl ContactDynamics {
 
     /// Returns the units of stiffness and damping.
     pub fn units(&self) -> [&'static str; 2] {
-        match self.kind {
-            ContactKind::Line => ["N/m²", "N s/m²"],
-            ContactKind::Point => ["N/m", "N s/m"],
-        }
+        if self.kind.is_line() { ["N/m²", "N s/m²"] } else { ["N/m", "N s/m"] }
     }
 
     /// Returns the names of stiffness and damping in JSON.
     fn names(&self) -> [&'static str; 2] {
-        match self.kind {
-            ContactKind::Line => ["stiffness_n_per_m2", "damping_ns_per_m2"],
-            ContactKind::Point => ["stiffness_n_per_m", "damping_ns_per_m"],
+        if self.kind.is_line() {
+            ["stiffness_n_per_m2", "damping_ns_per_m2"]
+        } else {
+            ["stiffness_n_per_m", "damping_ns_per_m"]
         }
     }
 }

@@ -93,10 +93,7 @@ impl Grid {
     /// Returns the solver's specification for a kind of contact; `None` for the grid of a reduced model, or if this grid
     /// is not for the kind.
     pub fn spec_for(&self, kind: ContactKind) -> Option<GridSpec> {
-        match kind {
-            ContactKind::Line => self.spec(),
-            ContactKind::Point => self.point_spec().map(GridSpec::Plane),
-        }
+        if kind.is_line() { self.spec() } else { self.point_spec().map(GridSpec::Plane) }
     }
 
     /// Returns the word used in results.

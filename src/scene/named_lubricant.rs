@@ -251,10 +251,7 @@ impl NamedLubricant {
     /// Returns the contact that the source studies, in pure rolling; `None` if the lubricant has no such contact.
     pub fn studied_contact(&self, kind: ContactKind) -> Option<OperatingPoint> {
         let (viscosity, studied) = (self.viscosity_pa_s?, self.studied?);
-        let load = match kind {
-            ContactKind::Line => studied.load_n_per_m,
-            ContactKind::Point => studied.load_n,
-        };
+        let load = if kind.is_line() { studied.load_n_per_m } else { studied.load_n };
         let StudiedContact { radius_m, modulus_pa, speed_m_per_s, .. } = studied;
         let quantities = [radius_m, speed_m_per_s, load, modulus_pa, viscosity, self.laws.own_coefficient()?];
         Some(OperatingPoint::from_quantities(kind, quantities, Sliding::NONE))

@@ -3,9 +3,7 @@
 
 use super::table::significant;
 use crate::solver::full::Solution;
-use crate::solver::physics::contact::{
-    ContactKind, DEFAULT_VISCOSITY_PA_S, FilmShape, Moes, MoesRequest, OperatingPoint,
-};
+use crate::solver::physics::contact::{DEFAULT_VISCOSITY_PA_S, FilmShape, Moes, MoesRequest, OperatingPoint};
 use crate::solver::physics::lubricant::{ROELANDS_PRESSURE_PA, roelands_exponent};
 use std::f64::consts::PI;
 
@@ -138,27 +136,20 @@ pub struct RegimeMap {
 impl RegimeMap {
     /// Prepares the estimate for a shape.
     pub fn new(shape: FilmShape) -> Self {
-        let (film, pressure) = match shape {
-            FilmShape::Line => (1.0, 1.0),
-            FilmShape::Ellipse(ratio) => {
-                let circle = OperatingPoint { kind: ContactKind::Point, ..OperatingPoint::TABLE_2_1 };
-                let radius_y_m = Some(ratio * circle.radius_m);
-                let (round, own) = (circle.hertz(), OperatingPoint { radius_y_m, ..circle }.hertz());
-                ((round.half_width_m / own.half_width_m).powi(2), own.pressure_pa / round.pressure_pa)
-            }
-        };
-        Self { shape, film, pressure }
+        let [own, circle] = shape.hertz_and_circle();
+        let film = (circle.half_width_m / own.half_width_m).powi(2);
+        Self { shape, film, pressure: own.pressure_pa / circle.pressure_pa }
     }
 
     /// Returns the estimated ratios at M and L.
     pub fn at(&self, moes: Moes) -> Ratios {
         let Moes { m, l } = moes;
         // (H_c in units of a²/R) / Ĥ_c, and α p_H.
-        let (kind, unit, hertz) = match self.shape {
-            FilmShape::Line => (ContactKind::Line, PI / (8.0 * m), l * (m / (2.0 * PI)).sqrt()),
+        let (unit, hertz) = match self.shape {
+            FilmShape::Line => (PI / (8.0 * m), l * (m / (2.0 * PI)).sqrt()),
             FilmShape::Ellipse(_) => {
                 let circle = (1.5 * m).cbrt();
-                (ContactKind::Point, self.film / circle.powi(2), self.pressure * l * circle / PI)
+                (self.film / circle.powi(2), self.pressure * l * circle / PI)
             }
         };
         let film = unit * self.shape.film(moes);
@@ -173,7 +164,7 @@ impl RegimeMap {
                 (0.5 * (-1.1 * spread).exp(), (1.0 + 0.4 * isoviscous + thick).recip())
             }
         };
-        let alpha = MoesRequest::new(kind, m, l).default_alpha();
+        let alpha = MoesRequest::new(self.shape.kind(), m, l).default_alpha();
         Ratios { deformation: flattening / (COMPRESSED * film), viscosity: roelands(hertz * pressure, alpha) }
     }
 

@@ -12,7 +12,7 @@ use super::study::Study;
 use super::view::View;
 use crate::solver::limits::plain;
 use crate::solver::parameters::Quantity;
-use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::engineering::Extent;
 use crate::solver::physics::lubricant::{LubricantError, ScaledShear};
 use crate::solver::physics::surfaces::LARGEST_RMS;
@@ -46,7 +46,7 @@ impl Scene {
         ScaledShear::new(self.lubricant.shear, self.sliding(), &point)
             .map_err(|problem| refuse("srr, npr", format!("are refused: {problem}")))?;
         if let Some(length) = self.length {
-            if self.contact == ContactKind::Point {
+            if self.contact.is_point() {
                 return Err(refuse("length", "belongs to a line contact; leave it out").into());
             }
             let (least, most) = Extent::LENGTHS_M;

@@ -8,7 +8,7 @@ use ehl_explorer::solver::full::transient::{self, Inputs, Keep, Moment, Signal, 
 use ehl_explorer::solver::full::{ContactSolver, Problem, Solution, Start};
 use ehl_explorer::solver::observer::{Observer, WalkStep};
 use ehl_explorer::solver::physics::contact::{
-    ContactKind, FilmFormula, FilmShape, Moes, MoesRequest, OperatingPoint, moes_film, si_from_moes,
+    ContactKind, FilmFormula, FilmShape, Moes, MoesRequest, OperatingPoint, si_from_moes,
 };
 use ehl_explorer::solver::physics::lubricant::{DensityLaw, Lubricant, Sliding};
 use ehl_explorer::solver::physics::surfaces::{AsperityLaw, Roughness};
@@ -277,7 +277,7 @@ fn drawn_rough(rng: &mut Rng, kind: ContactKind, k: usize) -> (OperatingPoint, L
     let mut point = contact(kind, m, 2.0 + 13.0 * rng.f64());
     point.sliding.slide_to_roll_ratio = 2.0 * rng.f64() - 1.0;
     let film = match kind {
-        ContactKind::Line => point.radius_m * point.speed_group().sqrt() * moes_film(kind, point.moes()),
+        ContactKind::Line => point.radius_m * point.speed_group().sqrt() * FilmShape::Line.film(point.moes()),
         ContactKind::Point => FilmFormula::NijenbanningVennerMoes.predict(&point).film_m,
     };
     let shear_flow = 2.0 * rng.f64() - 1.0;

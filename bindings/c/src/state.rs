@@ -33,26 +33,13 @@ pub struct Kept {
 const FORMS: [&[u8; 8]; 2] = [b"EHLFMU03", b"EHLFMU04"];
 /// Number of numbers in a serialised state: time and inputs. Outputs are computed from them. For a transient contact,
 /// they are followed by the end-of-initialisation flag and the state of the contact, if it has started.
-const NUMBERS: usize = 11;
+const NUMBERS: usize = 1 + Inputs::COUNT;
 
 impl Kept {
     pub fn written(&self, in_time: bool) -> Result<Vec<u8>, Refused> {
-        let i = &self.state.inputs;
-        let numbers: [f64; NUMBERS] = [
-            self.state.time,
-            i.radius_m,
-            i.radius_ratio,
-            i.speed_m_per_s,
-            i.slide_to_roll_ratio,
-            i.load,
-            i.approach_m,
-            i.modulus_pa,
-            i.viscosity_pa_s,
-            i.alpha_per_pa,
-            i.roughness_m,
-        ];
+        let numbers = std::iter::once(self.state.time).chain(self.state.inputs.numbers());
         let form = FORMS[usize::from(in_time)];
-        let mut written: Vec<u8> = form.iter().copied().chain(numbers.into_iter().flat_map(f64::to_le_bytes)).collect();
+        let mut written: Vec<u8> = form.iter().copied().chain(numbers.flat_map(f64::to_le_bytes)).collect();
         if in_time {
             written.push(u8::from(self.state.stepping));
             if let Some(contact) = &self.contact {
@@ -81,31 +68,8 @@ impl Kept {
         if !numbers.iter().all(|number| number.is_finite()) {
             return Err("the state holds a number that is not finite".into());
         }
-        let [
-            time,
-            radius_m,
-            radius_ratio,
-            speed_m_per_s,
-            slide_to_roll_ratio,
-            load,
-            approach_m,
-            modulus_pa,
-            viscosity_pa_s,
-            alpha_per_pa,
-            roughness_m,
-        ] = numbers;
-        let inputs = Inputs {
-            radius_m,
-            radius_ratio,
-            speed_m_per_s,
-            slide_to_roll_ratio,
-            load,
-            approach_m,
-            modulus_pa,
-            viscosity_pa_s,
-            alpha_per_pa,
-            roughness_m,
-        };
+        let [time, inputs @ ..] = numbers;
+        let inputs = Inputs::from_numbers(inputs);
         Ok(Self { state: State { time, inputs, outputs: None, stepping }, contact })
     }
 }

@@ -6,7 +6,6 @@ use crate::work::{refused, stated};
 use ehl_explorer::engine::Workbench;
 use ehl_explorer::scene::{ContactSpec, Field, MethodName, Request, Words};
 use ehl_explorer::solver::full::Problem;
-use ehl_explorer::solver::physics::contact::ContactKind;
 use ehl_explorer::solver::reduced::ReducedModel;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -303,7 +302,7 @@ impl Contact {
         for (name, value) in names.into_iter().zip(point.quantities()) {
             dict.set_item(name, value)?;
         }
-        if point.kind == ContactKind::Point {
+        if point.kind.is_point() {
             dict.set_item("radius_y", point.radius_y_m.unwrap_or(point.radius_m))?;
         }
         dict.set_item("srr", point.sliding.slide_to_roll_ratio)?;

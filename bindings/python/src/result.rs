@@ -7,7 +7,6 @@ use ehl_explorer::engine::{Answer, ContactResult};
 use ehl_explorer::scene::{ContactSpec, Paper, Report, ReportFormat, Stated, Subsurface, answer_or_full, atomic_file};
 use ehl_explorer::solver::discrete::half_space::Stress;
 use ehl_explorer::solver::full::Solution;
-use ehl_explorer::solver::physics::contact::ContactKind;
 use ehl_explorer::solver::physics::engineering::UnitSystem;
 use pyo3::exceptions::{PyAttributeError, PyKeyError};
 use pyo3::prelude::*;
@@ -44,9 +43,8 @@ impl Fields {
 
     /// Moves the fields of a solution into arrays.
     fn of(py: Python<'_>, solution: Solution) -> PyResult<Self> {
-        // The node arrays of a line contact begin with a node outside the inlet.
-        let line = solution.problem.point.kind == ContactKind::Line;
-        let skipped = usize::from(line);
+        let line = solution.problem.point.kind.is_line();
+        let skipped = solution.mesh.spec.first_column();
         let (nx, ny) = (solution.x.len(), solution.y.len());
         let shape = if line { vec![nx] } else { vec![nx, ny] };
         let field = |values: Vec<f64>| Ok::<_, PyErr>(from_row(shaped(py, values, &shape)?, skipped)?.unbind());

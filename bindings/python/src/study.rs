@@ -74,11 +74,8 @@ pub fn random_test<'py>(
     model: Option<&Bound<'py, PyAny>>,
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let kind = match contact {
-        "line" => ContactKind::Line,
-        "point" => ContactKind::Point,
-        _ => return Err(refused(format!("`{contact}` is no contact; accepted are line, point"))),
-    };
+    let kind = ContactKind::from_name(contact)
+        .ok_or_else(|| refused(format!("`{contact}` is no contact; accepted are line, point")))?;
     let method = match method {
         "full" => Method::Full,
         "reduced" => Method::EMBEDDED,

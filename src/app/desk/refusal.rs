@@ -8,7 +8,6 @@ use crate::app::answers::picture::Origin;
 use crate::app::command::Command;
 use crate::app::tabs::traction::sweep;
 use crate::app::units::Units;
-use crate::solver::physics::contact::ContactKind;
 
 const NO_PICTURE: &str = "There is no picture yet";
 const RUNS_ALREADY: &str = "It is already running";
@@ -74,7 +73,7 @@ impl Desk {
 }
 
 fn grid_error(desk: &Desk) -> Option<&'static str> {
-    if desk.document.point.kind == ContactKind::Line {
+    if desk.document.point.kind.is_line() {
         Some("The grid error is estimated for point contacts only")
     } else if desk.answers.runs(JobKind::Estimate) {
         Some(RUNS_ALREADY)

@@ -5,7 +5,7 @@ use crate::app::refusal::Refusal;
 use crate::scene::named_lubricant::of_laws;
 use crate::solver::parameters::Quantity;
 use crate::solver::physics::bodies::{Bodies, Body, Material, surface_speeds};
-use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::engineering::{Extent, Oil};
 use crate::solver::physics::lubricant::{Heat, Lubricant};
 use crate::solver::physics::machines::Machine;
@@ -55,7 +55,7 @@ impl Document {
     /// Returns the length of a line contact, and the radii of the bodies that the contact has the values of.
     pub fn extent(&self) -> Extent {
         let radii_m = self.bodies_in_force().map_or([None; 2], |bodies| bodies.0.map(|body| body.radius_m));
-        Extent { length_m: self.length_m.filter(|_| self.point.kind == ContactKind::Line), radii_m }
+        Extent { length_m: self.length_m.filter(|_| self.point.kind.is_line()), radii_m }
     }
 
     /// Sets kind of contact, bodies, speeds and load of a machine at its position, and holds them. Materials and
@@ -111,7 +111,7 @@ impl Document {
         let mut bodies = entered;
         let along = entered.reduced_radius_m().is_ok_and(|radius| same(radius, point.radius_m));
         let radius_y = point.radius_y_m.unwrap_or(point.radius_m);
-        let line = point.kind == ContactKind::Line;
+        let line = point.kind.is_line();
         let across = line || entered.reduced_transverse_radius_m().is_ok_and(|radius| same(radius, radius_y));
         if !(along && across) {
             let Bodies([first, second]) = Bodies::on_plane(point.radius_m, point.speed_m_per_s, srr);

@@ -44,10 +44,7 @@ pub const HOME: Moes = Moes { m: 40.0, l: 10.0 };
 
 /// Returns the title of a document without a title by the user.
 fn default_title(kind: ContactKind) -> &'static str {
-    match kind {
-        ContactKind::Line => "Line contact",
-        ContactKind::Point => "Point contact",
-    }
+    if kind.is_line() { "Line contact" } else { "Point contact" }
 }
 
 impl Default for Document {
@@ -79,7 +76,7 @@ impl Document {
         let fitted =
             |graded: PointGridSpec| graded.for_contact(&self.lubricant.grid_contact(&self.point)).unwrap_or(graded);
         let own = self.plane();
-        (self.point.kind == ContactKind::Point).then(|| if own == PointGridSpec::EXPLORER { fitted(own) } else { own })
+        self.point.kind.is_point().then(|| if own == PointGridSpec::EXPLORER { fitted(own) } else { own })
     }
 
     /// Sets M and L. The chosen quantities follow, and all others keep their values.
@@ -359,7 +356,7 @@ impl Document {
             self.drop_question(&mut scene);
         }
         scene.grid = self.grid;
-        scene.length = self.length_m.filter(|_| self.point.kind == ContactKind::Line);
+        scene.length = self.extent().length_m;
         if let Some(spec) = self.training.as_ref().filter(|_| self.saves_training()) {
             scene.study = Study::Training(spec.clone());
         }
@@ -395,10 +392,8 @@ impl Document {
 
     /// Returns the methods of a scene without a study: all methods in the program for the contact.
     fn methods(&self) -> Vec<Method> {
-        match self.point.kind {
-            ContactKind::Line if !self.lubricant.is_rough() => vec![Method::Full, Method::EMBEDDED],
-            ContactKind::Line | ContactKind::Point => vec![Method::Full],
-        }
+        let embedded = self.point.kind.is_line() && !self.lubricant.is_rough();
+        if embedded { vec![Method::Full, Method::EMBEDDED] } else { vec![Method::Full] }
     }
 
     /// Reads a document from the text of a scene.

@@ -93,7 +93,7 @@ impl Document {
     pub fn transient_grid(&self) -> Grid {
         let kind = self.point.kind;
         let asked = |scene: &&Scene| scene.contact == kind && matches!(scene.study, Study::Transient(_));
-        let default = if kind == ContactKind::Point { PLANE } else { GRID };
+        let default = if kind.is_point() { PLANE } else { GRID };
         self.scene.as_ref().filter(asked).map_or(default, |scene| scene.grid)
     }
 }

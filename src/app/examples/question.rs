@@ -1,7 +1,6 @@
 //! Question of a scene in one sentence.
 
 use crate::scene::{Scene, Study};
-use crate::solver::physics::contact::ContactKind;
 
 /// Returns the question of a scene.
 pub fn question(scene: &Scene) -> String {
@@ -9,8 +8,7 @@ pub fn question(scene: &Scene) -> String {
     let by = if reduced { "in full and reduced" } else { "in full" };
     match &scene.study {
         Study::Point(_) => {
-            let body = if scene.contact == ContactKind::Line { "line contact" } else { "point contact" };
-            format!("What are pressure and film thickness of this {body}, {by}?")
+            format!("What are pressure and film thickness of this {} contact, {by}?", scene.contact.name())
         }
         Study::Sweep(sweep) => {
             let varied: Vec<&str> = sweep.over.iter().map(|axis| axis.vary.label()).collect();

@@ -1,6 +1,7 @@
 //! Conditions that a step of a lesson waits for.
 
 use crate::app::document::{Document, Edit};
+use crate::app::panels::sliders::SLIDERS;
 use crate::app::refusal::Refusal;
 use crate::app::tab::Tab;
 use crate::scene::named_lubricant::{NAMED, NamedLubricant, by_name};
@@ -84,9 +85,7 @@ impl Goal {
         }
         let (first, rest) = words.split_once(' ')?;
         match first {
-            "contact" => {
-                [ContactKind::Line, ContactKind::Point].into_iter().find(|kind| kind.name() == rest).map(Self::Kind)
-            }
+            "contact" => ContactKind::from_name(rest).map(Self::Kind),
             "tab" => Tab::ALL.iter().find(|tab| tab.title() == rest).map(|tab| Self::Tab(*tab)),
             "lubricant" => {
                 let known = by_name(rest).ok()?;
@@ -163,16 +162,10 @@ const MICRO: f64 = 1e-6;
 /// Inlet film thickness of the switch \[nm\].
 const SUPPLY_NM: f64 = 200.0;
 
+/// Returns the quantity with this symbol, such as `u_m`, among those that a lesson may name.
 fn quantity(name: &str) -> Option<Quantity> {
-    match name {
-        "M" => Some(Quantity::M),
-        "L" => Some(Quantity::L),
-        "R_y/R" => Some(Quantity::RadiusRatio),
-        "SRR" => Some(Quantity::SlideToRollRatio),
-        "NPR" => Some(Quantity::NewtonianPlateauRatio),
-        "u_m" => Some(Quantity::Speed),
-        _ => None,
-    }
+    let (sign, subscript) = name.strip_suffix("_m").map_or((name, ""), |sign| (sign, "m"));
+    SLIDERS.into_iter().chain([Quantity::Speed]).find(|quantity| quantity.symbol() == (sign, subscript))
 }
 
 /// Returns the accessible name of a control that a lesson names by its symbol or by that name.

@@ -147,10 +147,9 @@ fn field(line: &str) -> Option<(&str, &str)> {
 fn start_of(words: &str) -> Result<(OperatingPoint, &'static NamedLubricant), Refusal> {
     let like = "write it like `Start: line contact, M 40, L 10, roelands-oil`";
     let mut parts = words.split(',').map(str::trim);
-    let kind = match parts.next() {
-        Some("line contact") => ContactKind::Line,
-        Some("point contact") => ContactKind::Point,
-        _ => return Err(Refusal::new(format!("a lesson starts with a line contact or a point contact; {like}"))),
+    let kind = parts.next().and_then(|words| words.strip_suffix(" contact")).and_then(ContactKind::from_name);
+    let Some(kind) = kind else {
+        return Err(Refusal::new(format!("a lesson starts with a line contact or a point contact; {like}")));
     };
     let named = |name: &str| by_name(name).map_err(Refusal::from);
     let rest: Vec<&str> = parts.collect();

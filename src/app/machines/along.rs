@@ -5,7 +5,6 @@ use crate::app::document::Document;
 use crate::app::refusal::Refusal;
 use crate::scene::TransientStudy;
 use crate::solver::full::transient::{Inputs, Signal, TimeStep};
-use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::engineering::UnitSystem;
 use crate::solver::physics::machines::{Machine, MachineContact};
 
@@ -26,17 +25,15 @@ pub(super) fn load_cases(machine: &Machine, document: &Document) -> Result<Strin
     let modulus_pa = base.reduced_modulus_pa()?;
     let (_, position) = MachineKind::of(machine).position();
     let unit = position.unit(UnitSystem::Engineering);
-    let (kind, load) = match machine.kind() {
-        ContactKind::Line => ("line", "w [N/mm]"),
-        ContactKind::Point => ("point", "w [N]"),
-    };
+    let kind = machine.kind().name();
+    let load = if machine.kind().is_line() { "w [N/mm]" } else { "w [N]" };
     let mut text =
         format!("name;#position [{}];contact;R [mm];R_y [mm];u1 [m/s];u2 [m/s];{load};E' [GPa]\n", unit.name);
     for (k, contact) in machine.path(modulus_pa, LINES)?.iter().enumerate() {
         let Ok(point) = contact.operating_point(base, document.point) else { continue };
         let [first, second] = point.surface_speeds();
         let across = point.radius_y_m.map_or(String::new(), |radius| format!("{:.9}", 1e3 * radius));
-        let load = if point.kind == ContactKind::Line { 1e-3 * point.load } else { point.load };
+        let load = if point.kind.is_line() { 1e-3 * point.load } else { point.load };
         let (name, place, modulus) = (machine.name(), unit.number(contact.position), 1e-9 * point.modulus_pa);
         let radius = 1e3 * point.radius_m;
         text += &format!(

@@ -2,7 +2,7 @@
 
 use crate::app::numbers::{self, in_field_unit, quantity, slide_to_roll};
 use crate::app::refusal::Refusal;
-use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::engineering::{QuantityKind, UnitSystem};
 use crate::solver::physics::machines::{Machine, MachineContact};
 
@@ -25,10 +25,7 @@ pub(super) fn of_contact(point: &OperatingPoint, contact: &MachineContact, syste
         ("u_m", speed(point.speed_m_per_s), "Mean entrainment speed"),
         ("SRR", slide_to_roll(point.sliding.slide_to_roll_ratio), "(u₂ − u₁)/u_m"),
     ]);
-    let load = match point.kind {
-        ContactKind::Line => "Load per length",
-        ContactKind::Point => "Load of this contact",
-    };
+    let load = if point.kind.is_line() { "Load per length" } else { "Load of this contact" };
     rows.push(("w", numbers::load(point.load, point.kind, system), load));
     if let Some(long) = contact.length_m {
         rows.push((

@@ -13,7 +13,6 @@ use crate::app::refusal::Refusal;
 use crate::app::tab::Tab;
 use crate::app::theme::rich;
 use crate::app::units;
-use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::engineering::UnitSystem;
 use crate::solver::physics::machines::Machine;
 use egui::{Button, Context, Grid, ScrollArea, TextStyle, Ui, Window};
@@ -159,7 +158,7 @@ impl MachineWindow {
         commands: &mut Commands,
     ) {
         let machine = self.drafts[kind as usize].clone();
-        let line = machine.kind() == ContactKind::Line;
+        let line = machine.kind().is_line();
         ui.horizontal(|ui| {
             let tip = "Sets bodies, speeds and load. Materials, roughness and lubricant stay";
             if ui.add_enabled(ready, Button::new("Use")).on_hover_text(tip).clicked() {

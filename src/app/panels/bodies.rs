@@ -8,7 +8,6 @@ use crate::app::document::{Document, Edit};
 use crate::app::machines::MachineKind;
 use crate::app::theme::name_and_symbol;
 use crate::solver::physics::bodies::{Bodies, Body, MATERIALS, Material};
-use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::engineering::{self, Dimension, QuantityKind, UnitSystem};
 use egui::{CollapsingHeader, ComboBox, Ui};
 
@@ -68,7 +67,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, commands: &
         let before = document.bodies();
         let mut wanted = before;
         let mut field = materials_ui(ui, &mut wanted);
-        let line = document.point.kind == ContactKind::Line;
+        let line = document.point.kind.is_line();
         for row in ROWS.iter().filter(|row| !(line && row.row == ACROSS)) {
             field = row.ui(ui, &mut wanted, context.system, entries).or(field);
         }

@@ -68,15 +68,13 @@ fn followers_ui(ui: &mut Ui, document: &Document, commands: &mut Commands) {
         let (mut load, mut lubricant) = (load_before, lubricant_before);
         let (loads, lubricants) = document.possible_followers();
         choice(ui, "When M moves", tip, &mut load, loads, |f| (f.name(), ""));
-        let tip = match (document.lubricant.own_coefficient(), document.point.kind) {
-            (Some(_), _) => "L is another combination; α follows from the lubricant’s viscosity law",
-            (None, ContactKind::Line) => {
-                "L is another combination. “α and speed together” keeps α = 5/GPa · L^0.463, along which the reduced \
-                 model is trained"
-            }
-            (None, ContactKind::Point) => {
-                "L is another combination. “α and speed together” keeps α = 5/GPa · (L/1.7)^0.655"
-            }
+        let tip = if document.lubricant.own_coefficient().is_some() {
+            "L is another combination; α follows from the lubricant’s viscosity law"
+        } else if document.point.kind.is_line() {
+            "L is another combination. “α and speed together” keeps α = 5/GPa · L^0.463, along which the reduced \
+             model is trained"
+        } else {
+            "L is another combination. “α and speed together” keeps α = 5/GPa · (L/1.7)^0.655"
         };
         choice(ui, "When L moves", tip, &mut lubricant, lubricants, |f| (f.name(), ""));
         let tip = "A roller has a load per length, a ball a load. This quantity stays constant when the shape changes";
@@ -138,7 +136,7 @@ fn si_ui(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, commands: &m
             held_ui(ui, document, (quantity, field), commands);
         });
     }
-    if kind == ContactKind::Line {
+    if kind.is_line() {
         length_ui(ui, context, entries, commands);
     }
     entries.reserved_ui(ui, FIELDS.map(|(_, field)| field).into_iter().chain(sliders::FIELDS).chain([SHAPE, LENGTH]));

@@ -10,7 +10,6 @@ use crate::app::numbers;
 use crate::app::theme::{Palette, rich};
 use crate::solver::discrete::grid::PointGridSpec;
 use crate::solver::full::point::second_grid;
-use crate::solver::physics::contact::ContactKind;
 use egui::{Grid, Ui};
 
 /// Presets with name and tooltip.
@@ -37,7 +36,7 @@ const PRESETS: [(PointGridSpec, &str, &str); 5] = [
 /// Draws the group Grid. Draws nothing for a line contact.
 pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     let Context { document, answers, .. } = *context;
-    if document.point.kind == ContactKind::Line {
+    if document.point.kind.is_line() {
         return;
     }
     heading(ui, "Grid");

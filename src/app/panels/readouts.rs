@@ -10,7 +10,6 @@ use crate::app::numbers;
 use crate::app::theme::{Palette, symbol};
 use crate::solver::full::Lubrication;
 use crate::solver::physics::bodies::film_regime;
-use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::engineering::{Extent, Losses, QuantityKind};
 use egui::text::LayoutJob;
 use egui::{Color32, FontId, RichText, TextStyle, Ui};
@@ -99,7 +98,7 @@ fn friction(
     }];
     let point = &picture.key.point;
     let own = context.document.extent();
-    let whole = point.kind == ContactKind::Point || own.length_m.is_some();
+    let whole = point.kind.is_point() || own.length_m.is_some();
     // Without a length the values of a line contact are per length.
     let extent = Extent { length_m: own.length_m.or(Some(1.0)), ..own };
     let losses = Losses::of(point, picture.traction, picture.solution.rolling_resistance(), &extent);

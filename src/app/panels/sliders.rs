@@ -7,7 +7,6 @@ use crate::app::document::{Document, Edit, HOME, Shape};
 use crate::app::numbers;
 use crate::app::theme::{name_and_symbol, rich};
 use crate::solver::parameters::Quantity;
-use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::engineering::{KELVIN, Oil, QuantityKind, Unit, UnitSystem};
 use crate::solver::physics::lubricant::{Heat, Lubricant, ShearLaw};
 use crate::solver::reduced::Domain;
@@ -126,7 +125,7 @@ fn rows(Context { document, answers, system, .. }: &Context<'_>) -> Vec<Row> {
         };
         Row { quantity, entry, slider, value: unit.number(value), kind, unit }
     };
-    let m_tip = if kind == ContactKind::Line { M_TIP } else { M_POINT_TIP };
+    let m_tip = if kind.is_line() { M_TIP } else { M_POINT_TIP };
     let srr_tip = if is_shear_thinning(document) { SRR_TIP } else { SRR_NEWTONIAN_TIP };
     let (slides, plateaus) = (domain.and_then(Domain::srr), trained(Quantity::NewtonianPlateauRatio));
     let mut rows = vec![
@@ -134,7 +133,7 @@ fn rows(Context { document, answers, system, .. }: &Context<'_>) -> Vec<Row> {
         row(Quantity::L, "L value", moes.l, trained(Quantity::L), HOME.l, L_TIP),
     ];
     // A circular contact has the ratio 1. Moving this slider makes it elliptical.
-    if kind == ContactKind::Point {
+    if kind.is_point() {
         let (ratio, ratios) = (document.point.radius_ratio(), trained(Quantity::RadiusRatio));
         rows.push(row(Quantity::RadiusRatio, "R_y/R value", ratio, ratios, 1.0, RATIO_TIP));
     }
@@ -163,7 +162,7 @@ fn si_rows(document: &Document, system: UnitSystem) -> Vec<Row> {
     let of_point = |quantity: Quantity, entry, named| {
         row(quantity, quantity.of(&document.point), entry, named, quantity.meaning(contact))
     };
-    let loads = if contact == ContactKind::Line { (1e3, 5e6) } else { (0.1, 5000.0) };
+    let loads = if contact.is_line() { (1e3, 5e6) } else { (0.1, 5000.0) };
     let temperatures = (KELVIN, KELVIN + 150.0);
     [
         of_point(Quantity::Speed, "u_m value", ("Slider of the speed", (1e-3, 100.0))),

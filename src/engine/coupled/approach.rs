@@ -88,18 +88,16 @@ const INWARDS: [f64; 2] = [1.0 + DIFFERENCE, 1.0 / (1.0 + DIFFERENCE)];
 
 /// Exponents of the load in the separation of a wide gap, and in the approach of a heavily loaded contact.
 fn exponents(kind: ContactKind) -> [f64; 2] {
-    match kind {
-        ContactKind::Line => [-1.0, 10.0 / 9.0],
-        ContactKind::Point => [-0.5, 1.5],
-    }
+    if kind.is_line() { [-1.0, 10.0 / 9.0] } else { [-0.5, 1.5] }
 }
 
 /// Returns a load of usual size: about that of [`USUAL_PRESSURE`]. The load of the inputs is not used.
 fn usual_load(inputs: &Inputs, kind: ContactKind) -> f64 {
     let (radius, modulus) = (inputs.radius_m, inputs.modulus_pa);
-    match kind {
-        ContactKind::Line => TAU * radius * USUAL_PRESSURE.powi(2) / modulus,
-        ContactKind::Point => 20.0 * radius.powi(2) * USUAL_PRESSURE.powi(3) / modulus.powi(2),
+    if kind.is_line() {
+        TAU * radius * USUAL_PRESSURE.powi(2) / modulus
+    } else {
+        20.0 * radius.powi(2) * USUAL_PRESSURE.powi(3) / modulus.powi(2)
     }
 }
 
@@ -118,10 +116,7 @@ impl End {
     fn beyond(&self, wanted: f64, exponent: f64, kind: ContactKind) -> Outputs {
         let further = wanted - self.approach_m;
         let ratio = (1.0 + further / (exponent * self.length_m)).powf(exponent);
-        let dry = match kind {
-            ContactKind::Line => ratio.sqrt(),
-            ContactKind::Point => ratio.cbrt(),
-        };
+        let dry = kind.hertz_root(ratio);
         // In an opening gap the film grows with the separation.
         let film = (-further).max(0.0);
         let mut outputs = self.outputs.clone();

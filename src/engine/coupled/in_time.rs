@@ -67,18 +67,7 @@ impl InTime {
     pub fn first_inputs(model: &TrajectoryModel) -> Option<Inputs> {
         let start = model.starts.first()?;
         let point = point_at(&start.point, start.inputs.at(0.0));
-        Some(Inputs {
-            radius_m: point.radius_m,
-            radius_ratio: 1.0,
-            speed_m_per_s: point.speed_m_per_s,
-            slide_to_roll_ratio: 0.0,
-            load: point.load,
-            approach_m: 0.0,
-            modulus_pa: point.modulus_pa,
-            viscosity_pa_s: point.viscosity_pa_s,
-            alpha_per_pa: point.alpha_per_pa,
-            roughness_m: 0.0,
-        })
+        Some(Inputs { slide_to_roll_ratio: 0.0, ..Inputs::of(&point) })
     }
 
     /// Returns the duration of one unit of T for the reference contact \[s\].

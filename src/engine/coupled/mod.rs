@@ -150,36 +150,89 @@ impl Outputs {
 /// The potential ln(|x − s|/d) of a line load contains a length d, on which h₀ depends. For h₀ it is `length_m`, such
 /// as the half width of (2.27), which changes with the load. For the approach it is [`approach_reference`].
 fn approach(point: &OperatingPoint, separation_m: f64, length_m: f64) -> f64 {
-    let elastic = match point.kind {
-        ContactKind::Line => 4.0 * point.load / (PI * point.modulus_pa) * (length_m / approach_reference(point)).ln(),
-        ContactKind::Point => 0.0,
+    let elastic = if point.kind.is_line() {
+        4.0 * point.load / (PI * point.modulus_pa) * (length_m / approach_reference(point)).ln()
+    } else {
+        0.0
     };
     -separation_m - elastic
 }
 
 /// Returns the reference distance for the approach of a line contact: R \[m\], independent of the load.
 fn approach_reference(point: &OperatingPoint) -> f64 {
-    if point.kind == ContactKind::Line { point.radius_m } else { f64::NAN }
+    if point.kind.is_line() { point.radius_m } else { f64::NAN }
 }
 
 impl Inputs {
     /// All inputs zero.
-    const NONE: Self = Self {
-        radius_m: 0.0,
-        radius_ratio: 0.0,
-        speed_m_per_s: 0.0,
-        slide_to_roll_ratio: 0.0,
-        load: 0.0,
-        approach_m: 0.0,
-        modulus_pa: 0.0,
-        viscosity_pa_s: 0.0,
-        alpha_per_pa: 0.0,
-        roughness_m: 0.0,
-    };
+    const NONE: Self = Self::from_numbers([0.0; Self::COUNT]);
+
+    /// Number of inputs.
+    pub const COUNT: usize = 10;
+
+    /// Returns the inputs of a contact with smooth surfaces. Their approach is 0.
+    fn of(point: &OperatingPoint) -> Self {
+        Self {
+            radius_m: point.radius_m,
+            radius_ratio: point.radius_ratio(),
+            speed_m_per_s: point.speed_m_per_s,
+            slide_to_roll_ratio: point.sliding.slide_to_roll_ratio,
+            load: point.load,
+            approach_m: 0.0,
+            modulus_pa: point.modulus_pa,
+            viscosity_pa_s: point.viscosity_pa_s,
+            alpha_per_pa: point.alpha_per_pa,
+            roughness_m: 0.0,
+        }
+    }
+
+    /// Returns all inputs in the order of their declaration.
+    pub fn numbers(&self) -> [f64; Self::COUNT] {
+        [
+            self.radius_m,
+            self.radius_ratio,
+            self.speed_m_per_s,
+            self.slide_to_roll_ratio,
+            self.load,
+            self.approach_m,
+            self.modulus_pa,
+            self.viscosity_pa_s,
+            self.alpha_per_pa,
+            self.roughness_m,
+        ]
+    }
+
+    /// Returns the inputs with these [numbers](Self::numbers).
+    pub const fn from_numbers(numbers: [f64; Self::COUNT]) -> Self {
+        let [
+            radius_m,
+            radius_ratio,
+            speed_m_per_s,
+            slide_to_roll_ratio,
+            load,
+            approach_m,
+            modulus_pa,
+            viscosity_pa_s,
+            alpha_per_pa,
+            roughness_m,
+        ] = numbers;
+        Self {
+            radius_m,
+            radius_ratio,
+            speed_m_per_s,
+            slide_to_roll_ratio,
+            load,
+            approach_m,
+            modulus_pa,
+            viscosity_pa_s,
+            alpha_per_pa,
+            roughness_m,
+        }
+    }
 
     /// Returns the contact that the inputs define under a load.
     fn stated(&self, kind: ContactKind, load: f64) -> ContactSpec {
-        let ellipse = kind == ContactKind::Point && self.radius_ratio != 1.0;
+        let ellipse = kind.is_point() && self.radius_ratio != 1.0;
         ContactSpec {
             contact: Some(kind),
             radius: Some(self.radius_m),
@@ -240,16 +293,9 @@ impl Coupled {
         let point = points().skip(middle).chain(points()).find(inside).or_else(|| points().next())?;
         let mut own = Self::new(Arc::clone(model), Pressed::Load).ok()?;
         let inputs = Inputs {
-            radius_m: point.radius_m,
-            radius_ratio: point.radius_ratio(),
-            speed_m_per_s: point.speed_m_per_s,
-            slide_to_roll_ratio: point.sliding.slide_to_roll_ratio,
-            load: point.load,
-            approach_m: 0.0,
-            modulus_pa: point.modulus_pa,
-            viscosity_pa_s: point.viscosity_pa_s,
             alpha_per_pa: own.lubricant.own_coefficient().unwrap_or(point.alpha_per_pa),
             roughness_m: own.lubricant.roughness.map_or(0.0, |rough| rough.sigma),
+            ..Inputs::of(&point)
         };
         let approach_m = own.solve(&inputs).ok()?.approach_m;
         Some(Inputs { approach_m, ..inputs })

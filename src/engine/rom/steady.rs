@@ -11,10 +11,10 @@ use super::window::{
 use crate::solver::discrete::grid::{ContactGrid, GridSpec};
 use crate::solver::observer::Observer;
 use crate::solver::parameters::Metric;
-use crate::solver::physics::contact::{Ellipse, Moes};
+use crate::solver::physics::contact::Moes;
 use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::{
-    Calibration, Domain, FeatureSet, PodBasis, ReducedModel, Scheme, Shapes, SharedBasis, Snapshot, Window,
+    Calibration, Domain, FeatureSet, PodBasis, ReducedModel, Scheme, SharedBasis, Snapshot, Window,
 };
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -146,10 +146,7 @@ fn check_windows(domain: &Domain, windows: &[WindowEntry]) -> Result<(), ModelFi
     } else if windows.iter().any(|window| window.anchor.is_some()) {
         return Err(damaged("oils"));
     }
-    let ratios =
-        |(low, high): (f64, f64)| Ellipse::of_ratio(low).is_ok() && Ellipse::of_ratio(high).is_ok() && low < high;
-    let shaped = |window: &WindowEntry| window.radius_ratio.is_some() == ellipses;
-    if !windows.iter().all(|window| shaped(window) && window.radius_ratio.is_none_or(ratios)) {
+    if !windows.iter().all(|window| window.has_sound_shapes(ellipses)) {
         return Err(damaged("shapes"));
     }
     let cavitation = domain.lubricant.cavitation;
@@ -241,15 +238,7 @@ fn of_domain(domain: &Domain, entry: &WindowEntry, mut window: Window) -> Result
     if !window.snapshots.iter().all(ruptures) {
         return Err(damaged("cavitation"));
     }
-    if let Some(ratios) = entry.radius_ratio {
-        let ContactGrid::Point(grid) = &window.grid else { return Err(damaged("shapes")) };
-        let shapes = Shapes::new(grid, &window.pressure.basis().modes, ratios).map_err(|_| damaged("shapes"))?;
-        window.shapes = Some(shapes);
-    }
-    let shaped = |s: &Snapshot| s.point.radius_y_m.is_some() == entry.radius_ratio.is_some();
-    if !window.snapshots.iter().all(shaped) {
-        return Err(damaged("shapes"));
-    }
+    window.shapes = entry.shapes_of(&window)?;
     let known = |known: &Calibration| known.sound() && known.is_of(&FeatureSet::of(domain));
     if !window.calibration.as_ref().is_none_or(known) {
         return Err(damaged("calibration"));

@@ -11,7 +11,7 @@ use super::window::{Rounding, WindowEntry, read_deformation, read_window, shapes
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::Problem;
 use crate::solver::full::transient::{Frame, Inputs};
-use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::{Cavitation, Sliding};
 use crate::solver::reduced::transient::{
     CoupledMarch, LocalBasis, Reach, TrajectoryDomain, TrajectoryModel, TrajectoryStart, only_course,
@@ -152,11 +152,11 @@ pub(super) fn decode(contents: &Contents<'_>) -> Result<TrajectoryModel, ModelFi
     }
     let grid = grid.build()?;
     let kind = grid.kind();
-    if domain.reference.contact != kind || kind == ContactKind::Point && frame != Frame::Fixed {
+    if domain.reference.contact != kind || kind.is_point() && frame != Frame::Fixed {
         return Err(damaged("its domain"));
     }
     // Reduced models of point contacts approximate either kind of cavitation by a penalty.
-    let cavitation = if kind == ContactKind::Point { Cavitation::Penalty } else { cavitation };
+    let cavitation = if kind.is_point() { Cavitation::Penalty } else { cavitation };
     let counts: Vec<usize> = windows.iter().map(|window| window.snapshots).collect();
     let mut snapshots = snapshots::read(contents, &counts).ok_or(damaged("cavitation"))?.into_iter();
     let sound_fronts = |fronts: &[usize]| {

@@ -4,11 +4,11 @@ use super::container::{Contents, Writer};
 use super::error::{ModelFileError, damaged};
 use super::sound::are_rows;
 use crate::solver::discrete::grid::ContactGrid;
-use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::contact::Ellipse;
 use crate::solver::physics::lubricant::Sliding;
 use crate::solver::reduced::{
-    Combined, Keeping, PodBasis, PressureModes, RULE_ACCURACY, SampledRows, Sampling, Scheme, SharedBasis, Snapshot,
-    TractionRule, Window, factor_accuracy, factor_scales, kept_starts,
+    Combined, Keeping, PodBasis, PressureModes, RULE_ACCURACY, SampledRows, Sampling, Scheme, Shapes, SharedBasis,
+    Snapshot, TractionRule, Window, factor_accuracy, factor_scales, kept_starts,
 };
 use faer::Mat;
 use serde::{Deserialize, Serialize};
@@ -46,6 +46,30 @@ pub(super) struct WindowEntry {
     pub traction: bool,
     /// Number of measured errors in its calibration; 0 without one.
     pub evidence: usize,
+}
+
+impl WindowEntry {
+    /// Returns true if its range of R_y/R is sound: an accepted interval in a model of elliptical contacts
+    /// (`ellipses`), absent in any other model.
+    pub fn has_sound_shapes(&self, ellipses: bool) -> bool {
+        let sound =
+            |(low, high): (f64, f64)| Ellipse::of_ratio(low).is_ok() && Ellipse::of_ratio(high).is_ok() && low < high;
+        self.radius_ratio.is_some() == ellipses && self.radius_ratio.is_none_or(sound)
+    }
+
+    /// Returns the shapes of its local model of elliptical contacts; `None` for other contacts.
+    ///
+    /// # Errors
+    /// If the local model or one of its solutions is not of such contacts.
+    pub fn shapes_of(&self, window: &Window) -> Result<Option<Shapes>, ModelFileError> {
+        let shaped = |snapshot: &Snapshot| snapshot.point.radius_y_m.is_some() == self.radius_ratio.is_some();
+        if !window.snapshots.iter().all(shaped) {
+            return Err(damaged("shapes"));
+        }
+        let Some(ratios) = self.radius_ratio else { return Ok(None) };
+        let ContactGrid::Point(grid) = &window.grid else { return Err(damaged("shapes")) };
+        Shapes::new(grid, &window.pressure.basis().modes, ratios).map(Some).map_err(|_| damaged("shapes"))
+    }
 }
 
 /// Precision of the arrays of a local model.
@@ -114,7 +138,7 @@ impl Rounding {
     pub fn accuracies(self, window: &Window) -> [f64; 2] {
         match self.keeping(window).map(Keeping::accuracy) {
             None => TRANSIENT,
-            Some(accuracy) if window.grid.kind() == ContactKind::Line => [accuracy; 2],
+            Some(accuracy) if window.grid.kind().is_line() => [accuracy; 2],
             Some(accuracy) => [accuracy, BENT_ACCURACY],
         }
     }

@@ -70,6 +70,6 @@ impl Facts {
     /// Returns the units of a number written without one, for line and point contacts; empty for dimensionless numbers.
     pub fn units(&self) -> [&'static str; 2] {
         let unit = |kind| self.bare.unwrap_or_else(|| self.dimension_in(kind).si_unit());
-        [ContactKind::Line, ContactKind::Point].map(unit)
+        ContactKind::BOTH.map(unit)
     }
 }

@@ -160,8 +160,12 @@ pub struct OilGrade(pub f64);
 
 impl Choice for ContactKind {
     const ALL: All<Self> = &[
-        ("line", "Line contact, loads in N/m", Self::Line),
-        ("point", "Point contact, loads in N: circular, or elliptical if a radius across is given", Self::Point),
+        (Self::Line.name(), "Line contact, loads in N/m", Self::Line),
+        (
+            Self::Point.name(),
+            "Point contact, loads in N: circular, or elliptical if a radius across is given",
+            Self::Point,
+        ),
     ];
 }
 

@@ -4,7 +4,7 @@ use super::fields::{ContactSpec, Field};
 use super::refusal::{Refusal, refuse};
 use crate::scene::grid::Grid;
 use crate::solver::discrete::grid::{GridError, GridSpec, PointGridSpec};
-use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+use crate::solver::physics::contact::OperatingPoint;
 
 /// Spacing and ends of the dissertation's grid for line contacts.
 const LINE: (f64, (f64, f64)) = (0.005, (-4.0, 2.0));
@@ -13,7 +13,7 @@ impl ContactSpec {
     /// Returns the grid of a full or a reduced solution.
     pub(super) fn grid_for(&self, full: bool, point: &OperatingPoint) -> Result<Grid, Refusal> {
         let own = [Field::Dx, Field::Dy, Field::Domain].into_iter().find(|field| self.states(*field));
-        if point.kind == ContactKind::Line {
+        if point.kind.is_line() {
             let across = self.domain.is_some_and(|domain| domain.y.is_some()).then_some(Field::Domain);
             if let Some(field) = self.dy.map(|_| Field::Dy).or(across) {
                 return refuse(field, "a line contact has no Y: leave out <dy> and the third number of <domain>");
@@ -36,10 +36,7 @@ impl ContactSpec {
             let grid = self.grid.unwrap_or(Grid::Usual).for_contact(point);
             return grid.map_err(|error| of_grid(Field::Grid, &error));
         };
-        match point.kind {
-            ContactKind::Line => self.line_grid(),
-            ContactKind::Point => self.plane(field),
-        }
+        if point.kind.is_line() { self.line_grid() } else { self.plane(field) }
     }
 
     /// Returns the grid of a line contact if spacing or ends are stated.

@@ -51,7 +51,7 @@ impl ContactSpec {
             (states(&[Field::Radius]), Field::Radius1),
             (states(&[Field::Radius]), Field::Radius2),
             (states(&[Field::Radius1, Field::Radius2]), Field::Radius),
-            (self.kind() == ContactKind::Line, Field::RadiusY),
+            (self.kind().is_line(), Field::RadiusY),
             (states(&[Field::E1, Field::Nu1, Field::E2, Field::Nu2]), Field::Modulus),
             (oil || named, Field::Viscosity),
             (oil || named_alpha, Field::Alpha),

@@ -5,7 +5,6 @@ use super::given::{Given, ValueError};
 use super::refusal::{Refusal, refuse};
 use crate::scene::document::options;
 use crate::solver::physics::bodies::Bodies;
-use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::machines::Machine;
 
 /// Fields that a machine determines.
@@ -46,9 +45,10 @@ impl ContactSpec {
         let bodies = contact.bodies(Bodies::on_plane(1.0, 1.0, 0.0));
         let (speed, srr) = bodies.entrainment().map_err(|error| of(&error))?;
         let radius = bodies.reduced_radius_m().map_err(|error| of(&error))?;
-        let radius_y = match contact.kind {
-            ContactKind::Line => None,
-            ContactKind::Point => Some(bodies.reduced_transverse_radius_m().map_err(|error| of(&error))?),
+        let radius_y = if contact.kind.is_line() {
+            None
+        } else {
+            Some(bodies.reduced_transverse_radius_m().map_err(|error| of(&error))?)
         };
         Ok(Some(Self {
             contact: Some(contact.kind),

@@ -2,7 +2,6 @@
 
 use super::fields::{ContactSpec, Field};
 use super::refusal::Refusal;
-use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::engineering::{Dimension, UnitError, parse};
 
 impl ContactSpec {
@@ -34,7 +33,7 @@ impl ContactSpec {
         let parsed = parse(text, dimension, unit);
         // A force is the load of a line contact over its whole length.
         if field == Field::Load
-            && self.kind() == ContactKind::Line
+            && self.kind().is_line()
             && parsed.is_err()
             && let Ok(total) = parse(text, Dimension::Force, unit)
         {

@@ -85,7 +85,7 @@ impl ContactSpec {
     fn extent(&self) -> Result<Extent, Refusal> {
         let (least, most) = Extent::LENGTHS_M;
         if let Some(length) = self.length {
-            if self.kind() == ContactKind::Point {
+            if self.kind().is_point() {
                 return refuse(Field::Length, "<length> belongs to a line contact; leave it out");
             }
             if !(least..=most).contains(&length) {

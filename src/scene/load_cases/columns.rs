@@ -61,5 +61,6 @@ fn check_unit(column: Column, unit: &str) -> Result<(), UnitError> {
         return Ok(());
     }
     let read = |kind| parse("1", field.facts().dimension_in(kind), unit).map(drop);
-    read(ContactKind::Line).or(read(ContactKind::Point))
+    let [line, point] = ContactKind::BOTH.map(read);
+    line.or(point)
 }

@@ -5,7 +5,7 @@ use crate::scene::chart::{Chart, ChartAxis, ColorScale, Map, Marks};
 use crate::scene::drawing::{Pen, Pixels, viridis};
 use crate::solver::discrete::half_space::{Stress, StressMeasure};
 use crate::solver::full::{Solution, SubsurfaceStress};
-use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::engineering::{QuantityKind, Unit, UnitSystem};
 
 /// Abscissae X of the profiles.
@@ -20,7 +20,7 @@ const PIXELS: [usize; 2] = [280, 240];
 /// Returns the figures of a report. The first answer is the reference, to which the stress field belongs.
 pub fn of(solved: &[Answer], stress: Option<&SubsurfaceStress>, system: UnitSystem) -> Vec<Chart> {
     let Some(solution) = solved.first().and_then(Answer::fields) else { return Vec::new() };
-    let map = (solution.problem.point.kind == ContactKind::Point).then(|| film_map(solution, system));
+    let map = solution.problem.point.kind.is_point().then(|| film_map(solution, system));
     profiles(solved, system)
         .into_iter()
         .chain(map)

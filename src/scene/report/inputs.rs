@@ -4,7 +4,8 @@ use super::rows::{Section, measured, number, percent};
 use super::stated::Stated;
 use crate::scene::answer::Answer;
 use crate::scene::regime::{Ratios, RegimeMap};
-use crate::solver::physics::contact::{ContactKind, FilmShape, OperatingPoint};
+use crate::solver::parameters::Quantity;
+use crate::solver::physics::contact::{FilmShape, OperatingPoint};
 use crate::solver::physics::engineering::{QuantityKind as K, UnitSystem};
 use crate::solver::physics::lubricant::{Cavitation, DensityLaw, Lubricant, ShearLaw, ViscosityLaw};
 use crate::solver::physics::surfaces::{AsperityLaw, Roughness};
@@ -21,19 +22,10 @@ pub fn sections(stated: &Stated, solved: &Answer) -> Vec<Section> {
     ]
 }
 
-/// Returns the kind of contact in words.
-pub fn kind(point: &OperatingPoint) -> &'static str {
-    match (point.kind, point.is_elliptic()) {
-        (ContactKind::Line, _) => "line contact",
-        (ContactKind::Point, false) => "circular contact",
-        (ContactKind::Point, true) => "elliptical contact",
-    }
-}
-
 fn bodies(stated: &Stated, solved: &Answer) -> Section {
     let point = &solved.result.point;
     let mut part = Section::new("Contact and bodies", stated.system);
-    part.row("Contact", kind(point));
+    part.row("Contact", FilmShape::of(point).name());
     part.measure("Length", solved.request.extent.length_m, K::Length);
     part.row("Body 1", stated.bodies[0].clone());
     part.row("Body 2", stated.bodies[1].clone());
@@ -47,13 +39,13 @@ fn operation(solved: &Answer, system: UnitSystem) -> Section {
     let point = &solved.result.point;
     let shown = |kind, si| measured(kind, si, system);
     let mut part = Section::new("Operation", system);
-    match (point.kind, solved.request.extent.length_m) {
-        (ContactKind::Line, Some(length)) => {
+    let load = Quantity::Load.kind(point.kind);
+    match solved.request.extent.length_m.filter(|_| point.kind.is_line()) {
+        Some(length) => {
             let total = shown(K::Force, point.load * length);
-            part.row("Load {w}", format!("{}, {total} in total", shown(K::LineLoad, point.load)));
+            part.row("Load {w}", format!("{}, {total} in total", shown(load, point.load)));
         }
-        (ContactKind::Line, None) => part.measure("Load {w}", point.load, K::LineLoad),
-        (ContactKind::Point, _) => part.measure("Load {w}", point.load, K::Force),
+        None => part.measure("Load {w}", point.load, load),
     }
     part.measure("Entrainment speed {u_m}", point.speed_m_per_s, K::Speed);
     let sliding = point.sliding.slide_to_roll_ratio;

@@ -8,7 +8,7 @@ use crate::scene::contact_result::ContactResult;
 use crate::scene::subsurface::Subsurface;
 use crate::solver::full::Lubrication;
 use crate::solver::physics::bodies::film_regime;
-use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::contact::FilmShape;
 use crate::solver::physics::engineering::{Extent, Losses, QuantityKind as K, UnitSystem};
 
 /// Returns the sections of the results. The first answer is the reference.
@@ -40,10 +40,10 @@ fn film(stated: &Stated, solved: &Answer) -> Section {
     }
     part.measure("Hertzian pressure {p_H}", hertz.pressure_pa, K::Pressure);
     part.measure("Maximum pressure", result.value("P_max").map(|p| p * hertz.pressure_pa), K::Pressure);
-    match (point.kind, point.is_elliptic()) {
-        (ContactKind::Line, _) => part.measure("Half width {a}", hertz.half_width_m, K::Length),
-        (ContactKind::Point, false) => part.measure("Contact radius {a}", hertz.half_width_m, K::Length),
-        (ContactKind::Point, true) => {
+    match FilmShape::of(point) {
+        FilmShape::Line => part.measure("Half width {a}", hertz.half_width_m, K::Length),
+        FilmShape::CIRCLE => part.measure("Contact radius {a}", hertz.half_width_m, K::Length),
+        FilmShape::Ellipse(_) => {
             let [along, across] =
                 [hertz.half_width_m, hertz.half_length_m].map(|axis| measured(K::Length, axis, stated.system));
             part.row("Semi-axes {a}, {b}", format!("{along}, {across}"));

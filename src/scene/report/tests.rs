@@ -3,6 +3,7 @@
 use super::rows::measured;
 use super::*;
 use crate::scene::contact_spec::{ContactSpec, Field};
+use crate::solver::physics::contact::FilmShape;
 use crate::solver::physics::engineering::{QuantityKind as K, UnitSystem};
 
 fn spec(fields: &[(Field, &str)]) -> ContactSpec {
@@ -57,7 +58,7 @@ fn elliptical_contacts_are_named_and_formats_follow_extensions() {
     let spec =
         spec(&[(Field::Contact, "point"), (Field::MoesM, "100"), (Field::MoesL, "8"), (Field::RadiusY, "30 mm")]);
     let point = spec.request().unwrap().point;
-    assert_eq!(inputs::kind(&point), "elliptical contact");
+    assert_eq!(FilmShape::of(&point).name(), "elliptical contact");
     assert_eq!(ReportFormat::of(Path::new("a.PDF")), Some(ReportFormat::Pdf));
     assert_eq!(ReportFormat::of(Path::new("a.docx")), None);
 }

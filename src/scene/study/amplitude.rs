@@ -13,7 +13,6 @@ use crate::solver::full::response::{
     reduction_parameter, widest_spacing,
 };
 use crate::solver::full::transient::MovingSurface;
-use crate::solver::physics::contact::ContactKind;
 use crate::solver::warning::Warning;
 use serde::{Deserialize, Serialize};
 
@@ -156,7 +155,7 @@ impl Question for Amplitude {
                 return Err(refuse("study.wavelengths", format!("are refused: {problem}")));
             }
         }
-        let uniform = experiment.contact == ContactKind::Line && matches!(experiment.grid, Grid::Uniform { .. });
+        let uniform = experiment.contact.is_line() && matches!(experiment.grid, Grid::Uniform { .. });
         if self.derivatives.contains(&Derivative::Characteristic) && !uniform {
             return Err(refuse(
                 "study.derivatives",

@@ -7,7 +7,7 @@ use crate::scene::check::{self, MAX_COMPARED, count, refuse};
 use crate::scene::parallel::full_solutions;
 use crate::scene::random_points::all_random_points;
 use crate::solver::parameters::ParameterSpace;
-use crate::solver::physics::contact::{ContactKind, Moes};
+use crate::solver::physics::contact::Moes;
 use crate::solver::training::distance::{Candidate, DISSERTATION, FURTHER, Fit, correlation, fit};
 use serde::{Deserialize, Serialize};
 
@@ -66,7 +66,7 @@ impl Question for DistanceMeasure {
     type Row = Row;
 
     fn check(&self, experiment: &Experiment) -> Checked {
-        if experiment.contact == ContactKind::Point {
+        if experiment.contact.is_point() {
             return Err(refuse("study", "is made for line contacts only; write `contact: Line`, or another study"));
         }
         count("study.points", self.points, 3, MAX_COMPARED)?;

@@ -14,7 +14,7 @@
 
 use super::problem::Problem;
 use crate::solver::discrete::space::Grid;
-use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::contact::FilmShape;
 
 /// Angle φ of the cavitation boundary far from a circular contact, where tan φ = −3 tanh 3φ.
 const BOUNDARY: f64 = 1.892553905;
@@ -23,17 +23,14 @@ const SIDEWAYS: f64 = 2.163998272e-03;
 
 /// Returns P at a position where the film thickness is H.
 pub(super) fn pressure(problem: &Problem, (x, y): (f64, f64), film: f64) -> f64 {
-    let share = match problem.point.kind {
-        ContactKind::Line => 3.0,
-        ContactKind::Point => 3.0 + 2.0 / problem.point.radius_ratio(),
-    };
-    let distance = if problem.point.kind == ContactKind::Line || problem.point.is_elliptic() {
+    let shape = FilmShape::of(&problem.point);
+    let distance = if shape != FilmShape::CIRCLE {
         (-x).max(0.0)
     } else {
         let angle = y.abs().atan2(-x);
         if angle >= BOUNDARY { 0.0 } else { x.hypot(y) * (angle.cos() + SIDEWAYS * (3.0 * angle).cosh()) }
     };
-    distance / (share * problem.inverse_lambda * film * film)
+    distance / (shape.far_field_factor() * problem.inverse_lambda * film * film)
 }
 
 /// Writes the pressure at the ends of a domain. The other entries of the node array are unchanged.

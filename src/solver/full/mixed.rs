@@ -2,7 +2,6 @@
 
 use super::problem::Problem;
 use super::solution::{Scalars, Solution};
-use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::surfaces::{ScaledRoughness, mean_gap};
 use crate::solver::warning::Warning;
 use serde::{Deserialize, Serialize};
@@ -141,11 +140,7 @@ impl Solution {
             rough.roughness.asperities.contact_area(point.modulus_pa, separation)
         };
         touched(0)?;
-        let hertz = match point.kind {
-            ContactKind::Line => 2.0,
-            ContactKind::Point => std::f64::consts::PI,
-        };
-        Some(self.force_per_load(|k| touched(k).unwrap_or(0.0)) / (point.area_per_load() * hertz))
+        Some(self.force_per_load(|k| touched(k).unwrap_or(0.0)) / (point.area_per_load() * point.kind.hertz_area()))
     }
 
     /// Returns the rate of wear \[m/s\] by Archard's law, k p_a |u₂ − u₁|, at the nodes of [`nodes`](Self::nodes); `None`

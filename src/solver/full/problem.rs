@@ -11,7 +11,6 @@ use crate::solver::physics::lubricant::{
 };
 use crate::solver::physics::surfaces::ScaledRoughness;
 use serde::{Deserialize, Serialize};
-use std::f64::consts::PI;
 
 /// Reason why a solve cannot start.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -122,10 +121,7 @@ impl Problem {
             moes: point.moes(),
             inverse_lambda: 1.0 / point.lambda_bar(),
             supply: lubricant.cavitation.supply_film_m().map(|film| film / point.film_scale_m()),
-            load: match point.kind {
-                ContactKind::Line => 0.5 * PI,
-                ContactKind::Point => 2.0 / 3.0 * PI,
-            },
+            load: point.kind.pressure_integral(),
         })
     }
 

@@ -9,7 +9,6 @@ use super::report::{Report, Termination};
 use crate::solver::discrete::grid::dot;
 use crate::solver::discrete::reynolds::generalized::PlaneGradient;
 use crate::solver::discrete::space::Grid;
-use crate::solver::physics::contact::ContactKind;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -110,10 +109,7 @@ impl Solution {
 
     /// Returns the index of the first abscissa inside the domain.
     pub(super) fn first(&self) -> usize {
-        match self.mesh.spec.kind() {
-            ContactKind::Line => 1,
-            ContactKind::Point => 0,
-        }
+        self.mesh.spec.first_column()
     }
 
     /// Returns the profile along the axis Y = 0 from inlet to outlet: X, P, H.

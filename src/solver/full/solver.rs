@@ -15,9 +15,8 @@ use crate::solver::discrete::grid::{ContactGrid, GridSpec};
 use crate::solver::discrete::rough::RoughNodes;
 use crate::solver::discrete::space::{Grid, LineSpace, PlaneSpace};
 use crate::solver::observer::Observer;
-use crate::solver::physics::contact::{ContactKind, FilmFormula, OperatingPoint, moes_film};
+use crate::solver::physics::contact::{FilmFormula, OperatingPoint, expected_film};
 use crate::solver::physics::lubricant::{Cavitation, Lubricant};
-use std::f64::consts::PI;
 use std::sync::Arc;
 
 /// Initial guess of a full solve.
@@ -304,18 +303,15 @@ impl<S: NewtonSpace> Solver<S> {
 /// for a line contact, Hamrock and Dowson's for a circular contact, and that of Nijenbanning, Venner and Moes for an
 /// elliptical contact. Hamrock and Dowson's formula is far too thick for R_y < R_x.
 pub(super) fn formula_film(problem: &Problem) -> f64 {
-    match problem.point.kind {
-        // (h/R)(2U)^(−1/2) with a²/R² = 8 w/(π E′ R) = 8 M (2U)^(1/2)/π.
-        ContactKind::Line => moes_film(ContactKind::Line, problem.moes) * PI / (8.0 * problem.moes.m),
-        ContactKind::Point => {
-            let ellipse = problem.point.is_elliptic();
-            let all_regimes = FilmFormula::NijenbanningVennerMoes.predict(&problem.point).film_m;
-            let piezoviscous = FilmFormula::HamrockDowsonCentral.predict(&problem.point).film_m;
-            // Hamrock and Dowson's power law in α does not cover the isoviscous regimes.
-            let film = if ellipse || piezoviscous < 0.5 * all_regimes { all_regimes } else { piezoviscous };
-            film / problem.point.film_scale_m()
-        }
+    let point = &problem.point;
+    if point.kind.is_line() {
+        return expected_film(point);
     }
+    let all_regimes = FilmFormula::NijenbanningVennerMoes.predict(point).film_m;
+    let piezoviscous = FilmFormula::HamrockDowsonCentral.predict(point).film_m;
+    // Hamrock and Dowson's power law in α does not cover the isoviscous regimes.
+    let film = if point.is_elliptic() || piezoviscous < 0.5 * all_regimes { all_regimes } else { piezoviscous };
+    film / point.film_scale_m()
 }
 
 /// Sets the Hertzian pressure and the central film thickness of a cold start.

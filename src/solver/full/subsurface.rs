@@ -3,7 +3,6 @@
 use super::solution::Solution;
 use crate::solver::discrete::elasticity::KernelError;
 use crate::solver::discrete::half_space::{Stress, StressMeasure, SurfaceLoad, stress_below};
-use crate::solver::physics::contact::ContactKind;
 use serde::{Deserialize, Serialize};
 
 /// Spacing along X and across, in units of the half width of the pressure and of the ordinates.
@@ -90,7 +89,7 @@ impl Solution {
     /// [`KernelError`] if a Fourier transform fails.
     pub fn subsurface_stress(&self, poisson: f64) -> Result<SubsurfaceStress, KernelError> {
         let point = &self.problem.point;
-        let (kappa, line) = (point.ellipse().kappa, point.kind == ContactKind::Line);
+        let (kappa, line) = (point.ellipse().kappa, point.kind.is_line());
         let width = self.pressure_width().max(1.0);
         let (first, last) = (self.x.get(self.first()).copied().unwrap_or(0.0), self.x.last().copied().unwrap_or(0.0));
         let dx = SPACING[0] * width;
@@ -189,7 +188,7 @@ mod tests {
     use super::*;
     use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
     use crate::solver::full::{ContactSolver, Start};
-    use crate::solver::physics::contact::{MoesRequest, OperatingPoint, Sliding, si_from_moes};
+    use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, Sliding, si_from_moes};
     use crate::solver::physics::engineering::largest_shear;
     use crate::solver::physics::lubricant::{LimitingStress, Lubricant};
 

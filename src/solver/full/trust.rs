@@ -20,7 +20,7 @@ use super::system::System;
 use crate::solver::discrete::grid::{INLET, that_would_do};
 use crate::solver::discrete::reynolds::{EAST, NORTH, SOUTH, WEST};
 use crate::solver::discrete::space::Grid;
-use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::contact::FilmShape;
 use crate::solver::warning::{NearEnds, Warning, WideSpacing};
 
 /// Accuracy of the linear solves, and their maximum number of iterations.
@@ -125,10 +125,7 @@ impl<S: NewtonSpace> System<S> {
     fn missing_pressure(&self, problem: &Problem) -> Vec<f64> {
         let (x, y) = self.space.grid().abscissae();
         let weights = self.space.grid().weights();
-        let share = match S::KIND {
-            ContactKind::Line => 3.0,
-            ContactKind::Point => 3.0 + 2.0 / problem.point.radius_ratio(),
-        };
+        let share = FilmShape::of(&problem.point).far_field_factor();
         let continues = self.space.grid().continues();
         let at = |node: usize| {
             let (x, film) = (x[node / y.len()], self.film[node]);
@@ -146,7 +143,7 @@ impl<S: NewtonSpace> System<S> {
     /// that.
     fn missing_load(&self, missing: &[f64]) -> f64 {
         let (x, y) = self.space.grid().abscissae();
-        if S::KIND == ContactKind::Line {
+        if S::KIND.is_line() {
             return -0.5 * missing[INLET] * x[INLET];
         }
         let along_end = |nodes: &[f64], at: &dyn Fn(usize) -> f64| -> f64 {
@@ -163,7 +160,7 @@ mod tests {
     use super::*;
     use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
     use crate::solver::full::{ContactSolver, Start};
-    use crate::solver::physics::contact::{MoesRequest, si_from_moes};
+    use crate::solver::physics::contact::{ContactKind, MoesRequest, si_from_moes};
     use crate::solver::physics::lubricant::Lubricant;
 
     fn judged(spec: GridSpec, m: f64, l: f64) -> Solution {

@@ -14,7 +14,7 @@ use super::solution::Solution;
 use super::solver::{Beginning, ColdStart, Solver, formula_film};
 use crate::solver::discrete::space::Grid;
 use crate::solver::observer::{Observer, WalkStep};
-use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::physics::surfaces::Roughness;
 
@@ -73,7 +73,7 @@ impl Path {
         if let Some(rough) = problem.rough.filter(|rough| formula_film(problem) < APART * rough.sigma) {
             // Asperities that carry most of the load leave a film that smooth surfaces would not have.
             return match m / S::EASY_M.1 {
-                heavier if heavier > 1.0 => Self::Speed(heavier.ln() / speed_power(problem)),
+                heavier if heavier > 1.0 => Self::Speed(heavier.ln() / problem.point.kind.speed_power()),
                 _ => Self::Roughness((formula_film(problem) / (APART * rough.sigma)).ln()),
             };
         }
@@ -112,7 +112,7 @@ impl Path {
             Self::Loads { m, l } => {
                 // Speed and load change at the same α: L grows with the fourth root of the speed.
                 let point = &problem.point;
-                let (speed, power) = (4.0 * (1.0 - t) * l, speed_power(problem));
+                let (speed, power) = (4.0 * (1.0 - t) * l, problem.point.kind.speed_power());
                 let easier = OperatingPoint {
                     speed_m_per_s: point.speed_m_per_s * speed.exp(),
                     load: point.load * ((1.0 - t) * m + power * speed).exp(),
@@ -122,11 +122,6 @@ impl Path {
             }
         }
     }
-}
-
-/// Power of 1/u_m, the speed, in the load number M.
-fn speed_power(problem: &Problem) -> f64 {
-    if problem.point.kind == ContactKind::Line { 0.5 } else { 0.75 }
 }
 
 /// Solved contact of the path.

@@ -22,7 +22,7 @@ pub fn separation(a: &OperatingPoint, b: &OperatingPoint) -> f64 {
     let shape = if a.radius_y_m == b.radius_y_m && a.radius_m == b.radius_m {
         0.0
     } else {
-        SHAPE_WEIGHT * (a.radius_ratio() / b.radius_ratio()).ln().powi(2)
+        SHAPE_WEIGHT * a.log_ratio_over(b).powi(2)
     };
     distance(a.moes(), b.moes()) + a.sliding.distance(b.sliding) + shape
 }

@@ -293,9 +293,9 @@ impl Quantity {
             Self::M => point.moes().m,
             Self::L => point.moes().l,
             Self::Radius => point.radius_m,
-            Self::RadiusY if point.kind == ContactKind::Line => return None,
+            Self::RadiusY if point.kind.is_line() => return None,
             Self::RadiusY => point.radius_y_m.unwrap_or(point.radius_m),
-            Self::RadiusRatio if point.kind == ContactKind::Line => return None,
+            Self::RadiusRatio if point.kind.is_line() => return None,
             Self::RadiusRatio => point.radius_ratio(),
             Self::Speed => point.speed_m_per_s,
             Self::Load => point.load,
@@ -383,10 +383,7 @@ fn smooth_film_m(point: &OperatingPoint) -> f64 {
 
 /// Returns the contact with all lengths multiplied by a factor. M, L and p_H are the same.
 pub(crate) fn enlarged(point: &OperatingPoint, factor: f64) -> OperatingPoint {
-    let load = match point.kind {
-        ContactKind::Line => factor,
-        ContactKind::Point => factor * factor,
-    };
+    let load = factor.powi(point.kind.radius_power());
     OperatingPoint {
         radius_m: point.radius_m * factor,
         radius_y_m: point.radius_y_m.map(|radius| radius * factor),

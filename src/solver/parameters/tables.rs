@@ -31,9 +31,6 @@ impl ParameterSpace {
 
     /// Returns the dissertation's box for a kind of contact.
     pub fn of_tables(kind: ContactKind) -> Self {
-        match kind {
-            ContactKind::Line => Self::table_3_1(),
-            ContactKind::Point => Self::table_3_4(),
-        }
+        if kind.is_line() { Self::table_3_1() } else { Self::table_3_4() }
     }
 }

@@ -2,7 +2,7 @@
 //! is inside.
 
 use crate::solver::full::{Problem, SolveError};
-use crate::solver::parameters::{CIRCLES, Outside, ParameterSpace, Quantity, REFERENCE_ROUGHNESS_M, enlarged};
+use crate::solver::parameters::{Outside, ParameterSpace, Quantity, REFERENCE_ROUGHNESS_M, enlarged};
 use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
 use crate::solver::physics::lubricant::{Lubricant, LubricantOfModel, ShearLaw};
 use crate::solver::physics::surfaces::Roughness;
@@ -115,10 +115,7 @@ impl Domain {
         }
         let Some(stresses) = self.stress_ratio(lubricant) else { return *point };
         // At constant L, 2U is proportional to E′⁻⁴. The speed then follows from 2U E′ R, and the load from M.
-        let load = match point.kind {
-            ContactKind::Line => stresses.recip(),
-            ContactKind::Point => stresses.powi(-2),
-        };
+        let load = stresses.powi(-point.kind.radius_power());
         OperatingPoint {
             modulus_pa: point.modulus_pa * stresses,
             speed_m_per_s: point.speed_m_per_s * stresses.powi(-3),
@@ -228,7 +225,7 @@ impl Domain {
     }
 
     fn other_shape(&self, point: &OperatingPoint) -> Option<Outside> {
-        let ellipse = self.space.radius_ratio() == CIRCLES && point.is_elliptic();
+        let ellipse = !self.space.of_ellipses() && point.is_elliptic();
         ellipse.then(|| Outside::Other("the model was trained for circular contacts only".to_owned()))
     }
 
@@ -343,10 +340,7 @@ impl Domain {
         };
         let outside = Some(Outside::Box { m: moes.m, l: moes.l });
         let Ok(smallest) = si_from_moes(&request) else { return outside };
-        let power = match self.contact {
-            ContactKind::Line => 1.0,
-            ContactKind::Point => 2.0,
-        };
+        let power = f64::from(self.contact.radius_power());
         // Interval of R that the intervals of u_m and w permit.
         let by_speed = |speed: f64| radius.0 * speed / smallest.speed_m_per_s;
         let by_load = |load: f64| radius.0 * (load / smallest.load).powf(1.0 / power);

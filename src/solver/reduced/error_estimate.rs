@@ -2,7 +2,7 @@
 //! the errors were measured.
 
 use crate::solver::full::Mixed;
-use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Cavitation;
 use serde::{Deserialize, Serialize};
 
@@ -59,7 +59,7 @@ impl ErrorEstimate {
     /// contacts need an allowance: for circular contacts the change is at most 1.8e-4, which is four tenths of their
     /// bounds.
     pub fn against(mut self, point: &OperatingPoint, asked: Cavitation, measured_by: Cavitation) -> Self {
-        if (point.kind, asked, measured_by) == (ContactKind::Line, Cavitation::Penalty, Cavitation::Complementarity) {
+        if point.kind.is_line() && (asked, measured_by) == (Cavitation::Penalty, Cavitation::Complementarity) {
             self.h_c.bound += MOVES_H_C;
             self.h_min.bound += MOVES_H_MIN.0 + MOVES_H_MIN.1 * point.moes().m;
         }

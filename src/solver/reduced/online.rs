@@ -14,11 +14,12 @@ use super::kriging::Kriging;
 use super::model::{ReducedModel, Snapshot, Window};
 use super::operators::{Flow, Operators, RowObserver};
 use super::reduced_solution::ReducedSolution;
+use super::shapes::Shapes;
 use super::start::{self, Former, Guess, Known};
 use crate::solver::full::Problem;
 use crate::solver::observer::Observer;
 use crate::solver::parameters::Metric;
-use crate::solver::physics::contact::{ContactKind, Ellipse, OperatingPoint};
+use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::warning::ENDURED_K;
 use attempt::{Found, Watch, attempt, walk};
@@ -207,10 +208,7 @@ impl Online {
         let (Some(window), Some(cell)) = (model.windows.get(index), self.windows.get_mut(index)) else {
             return Err(ReducedError::Empty);
         };
-        let (ellipse, known) = (point.ellipse(), model.domain.space.radius_ratio());
-        if window.shapes.as_ref().map_or(ellipse != Ellipse::CIRCLE, |shapes| !shapes.hold_for(&ellipse)) {
-            return Err(ReducedError::Ellipse { given: ellipse.radius_ratio, known });
-        }
+        Shapes::check(window.shapes.as_ref(), point, &model.domain.space)?;
         cell.get_or_init(|| operators_of(&self.model, window, &self.options));
         let Some(operators) = cell.get_mut() else { return Err(ReducedError::Empty) };
         if self.options.starts == Starts::Nearest {

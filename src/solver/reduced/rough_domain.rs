@@ -5,7 +5,7 @@
 use super::domain::Domain;
 use crate::solver::full::Problem;
 use crate::solver::parameters::{Outside, Quantity};
-use crate::solver::physics::contact::{ContactKind, DEFAULT_MODULUS_PA};
+use crate::solver::physics::contact::DEFAULT_MODULUS_PA;
 
 /// Separations l at which asperity pressures are compared.
 const SEPARATIONS: [f64; 3] = [0.0, 1.0, 2.0];
@@ -35,10 +35,7 @@ impl Domain {
                 "asperities carry {ratio:.2} times the pressure of those of the training ({low}…{high})"
             ));
         }
-        let pekleniks = match self.contact {
-            ContactKind::Line => PEKLENIKS,
-            ContactKind::Point => PEKLENIKS_OF_CIRCLES,
-        };
+        let pekleniks = if self.contact.is_line() { PEKLENIKS } else { PEKLENIKS_OF_CIRCLES };
         if !within(asked.peklenik / own.peklenik, pekleniks) {
             let [low, high] = [pekleniks.0, pekleniks.1].map(|factor| factor * own.peklenik);
             return outside(match low == high {

@@ -5,9 +5,10 @@
 //! about 1e-6 of the largest deformation. The online cost hardly changes, because the rows are combined once per
 //! contact. Single precision (6e-8) is sufficient and halves the memory.
 
+use super::online::ReducedError;
 use crate::host::pool::on_all_cores;
 use crate::solver::discrete::grid::{ContactGrid, GridError, PointGrid};
-use crate::solver::parameters::CIRCLES;
+use crate::solver::parameters::{CIRCLES, ParameterSpace};
 use crate::solver::physics::contact::{Ellipse, OperatingPoint};
 use faer::Mat;
 use rayon::prelude::*;
@@ -63,6 +64,22 @@ impl Shapes {
     pub fn aside(shapes: Option<&Self>, point: &OperatingPoint) -> f64 {
         let ((low, high), ratio) = (shapes.map_or(CIRCLES, |shapes| shapes.ratios), point.radius_ratio());
         (low / ratio).max(ratio / high).max(1.0)
+    }
+
+    /// Checks that a local model with these shapes, or of circular contacts for `None`, is valid for a contact.
+    ///
+    /// # Errors
+    /// [`ReducedError::Ellipse`] if it is not, with R_y/R of the trained range.
+    pub(super) fn check(
+        shapes: Option<&Self>,
+        point: &OperatingPoint,
+        range: &ParameterSpace,
+    ) -> Result<(), ReducedError> {
+        let ellipse = point.ellipse();
+        if shapes.map_or(ellipse != Ellipse::CIRCLE, |shapes| !shapes.hold_for(&ellipse)) {
+            return Err(ReducedError::Ellipse { given: ellipse.radius_ratio, known: range.radius_ratio() });
+        }
+        Ok(())
     }
 
     /// Returns true if the shapes are valid for an ellipse; also slightly beyond their range.

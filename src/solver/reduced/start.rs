@@ -6,7 +6,7 @@ use super::dense;
 use super::model::{Snapshot, Window};
 use crate::solver::discrete::heat::Profile;
 use crate::solver::parameters::{REFERENCE_ROUGHNESS_M, SHAPE_WEIGHT, separation};
-use crate::solver::physics::contact::{ContactKind, FilmFormula, OperatingPoint, moes_film};
+use crate::solver::physics::contact::{FilmFormula, FilmShape, OperatingPoint};
 use crate::solver::physics::surfaces::{mean_gap, separation_of_gap};
 use faer::Mat;
 
@@ -118,7 +118,7 @@ fn coordinates(point: &OperatingPoint) -> [f64; 6] {
     let (moes, sliding) = (point.moes(), point.sliding);
     let plateau = sliding.newtonian_plateau_ratio.unwrap_or(1.0);
     let squares = [0.5, 0.001, ALPHA_WEIGHT, 0.03, 0.3, SHAPE_WEIGHT];
-    let (log_alpha, log_ratio) = (point.alpha_per_pa.ln(), point.radius_ratio().ln());
+    let (log_alpha, log_ratio) = (point.alpha_per_pa.ln(), point.log_ratio());
     let values = [moes.m.ln(), moes.l, log_alpha, sliding.slide_to_roll_ratio.abs(), plateau, log_ratio];
     std::array::from_fn(|k| f64::sqrt(squares[k]) * values[k])
 }
@@ -170,17 +170,15 @@ impl FilmUnit {
 /// Returns a film thickness formula in the solver's scaling up to a constant, to compare film thicknesses: Moes for
 /// line contacts, Hamrock and Dowson for circular, Chittenden for elliptical contacts.
 fn film_number(point: &OperatingPoint) -> f64 {
-    match point.kind {
-        ContactKind::Line => {
+    let formula = match FilmShape::of(point) {
+        FilmShape::Line => {
             let moes = point.moes();
-            moes_film(ContactKind::Line, moes) / moes.m
+            return FilmShape::Line.film(moes) / moes.m;
         }
-        ContactKind::Point => {
-            let ellipse = point.is_elliptic();
-            let formula = if ellipse { FilmFormula::ChittendenCentral } else { FilmFormula::HamrockDowsonCentral };
-            formula.predict(point).film_m / point.film_scale_m()
-        }
-    }
+        FilmShape::CIRCLE => FilmFormula::HamrockDowsonCentral,
+        FilmShape::Ellipse(_) => FilmFormula::ChittendenCentral,
+    };
+    formula.predict(point).film_m / point.film_scale_m()
 }
 
 /// Returns the nearest training solution by (3.20), with its film thickness scaled by the formula.
@@ -233,7 +231,7 @@ pub(super) fn interpolated(window: &Window, point: &OperatingPoint, thinning: bo
             let m = s.moes();
             let (dl, d_alpha) = (0.2 * (m.l - moes.l), s.alpha_per_pa.ln() - log_alpha);
             let [first, second] = match window.shapes {
-                Some(_) => [(s.radius_ratio() / point.radius_ratio()).ln(), 0.0],
+                Some(_) => [s.log_ratio_over(point), 0.0],
                 None => [srr(s) - srr(point), plateau(s) - plateau(point)],
             };
             [1.0, (m.m / moes.m).ln(), dl, d_alpha, first, second]

@@ -13,7 +13,6 @@
 
 use super::cubature::GoalEquations;
 use crate::solver::discrete::grid::ContactGrid;
-use crate::solver::physics::contact::ContactKind;
 use serde::{Deserialize, Serialize};
 
 /// Number of nodes of a quadrature for point contacts. The error is 4e-4 (95th percentile) for thermal circular contacts, below
@@ -53,10 +52,7 @@ impl TractionRule {
     /// are selected among those of the sampled equations and some of the grid. `None` if there are too few solutions,
     /// or if the fit fails.
     pub fn fit(grid: &ContactGrid, sampled_rows: &[usize], stresses: &[Vec<f64>]) -> Option<Self> {
-        let most = match grid.kind() {
-            ContactKind::Line => NODES_OF_LINE,
-            ContactKind::Point => NODES,
-        };
+        let most = if grid.kind().is_line() { NODES_OF_LINE } else { NODES };
         let quadrature = quadrature(grid);
         let (_, across) = grid.nodes();
         let between = |node: &usize| (node / across).is_multiple_of(BETWEEN) && (node % across).is_multiple_of(BESIDE);
@@ -92,8 +88,7 @@ impl TractionRule {
 /// Returns the trapezoidal rule over a grid in ξ and Y, over both halves of a point contact.
 fn quadrature(grid: &ContactGrid) -> Vec<f64> {
     let (xi, y) = grid.abscissae();
-    // The node array of a line contact has one node outside the inlet.
-    let first = xi.len() - grid.nodes().0;
+    let first = grid.first_column();
     let cell = |at: &[f64], i: usize, first: usize| {
         let west = if i > first { at[i] - at[i - 1] } else { 0.0 };
         let east = at.get(i + 1).map_or(0.0, |next| next - at[i]);
@@ -109,7 +104,7 @@ mod tests {
     use super::*;
     use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
     use crate::solver::full::{ContactSolver, Start};
-    use crate::solver::physics::contact::{MoesRequest, OperatingPoint, Sliding, si_from_moes};
+    use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, Sliding, si_from_moes};
     use crate::solver::physics::lubricant::Lubricant;
 
     #[test]

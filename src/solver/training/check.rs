@@ -3,7 +3,6 @@
 use super::spec::{Plan, TrainingSpec, WindowSpec, Windows};
 use crate::solver::limits::{Refused, count, interval, number, plain};
 use crate::solver::parameters::Quantity;
-use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::{Cavitation, LARGEST_HEATED_SRR, ShearLaw, ViscosityLaw};
 use crate::solver::reduced::{LEAST_EVIDENCE, LEAST_OF_WINDOW, Sampling, Scheme};
 
@@ -143,7 +142,7 @@ fn lubricant(spec: &TrainingSpec) -> Result<(), Refused> {
         }
         Cavitation::Penalty | Cavitation::Complementarity => {}
     }
-    if range.of_ellipses() && spec.contact() != ContactKind::Point {
+    if range.of_ellipses() && spec.contact().is_line() {
         return refuse("range", "is of elliptical contacts, but the windows' grids are of line contacts");
     }
     if range.of_ellipses() && shear_thinning && !heat {
@@ -195,7 +194,7 @@ fn rough(spec: &TrainingSpec) -> Result<(), Refused> {
     if laws.roughness.is_none() {
         return refuse("range.axes.SmoothFilmRatio", "needs the laws of rough surfaces");
     }
-    if spec.contact() == ContactKind::Point && laws.roughness.is_some_and(|roughness| roughness.peklenik != 1.0) {
+    if spec.contact().is_point() && laws.roughness.is_some_and(|roughness| roughness.peklenik != 1.0) {
         return refuse("roughness.peklenik", "must be 1 for a reduced model of rough circular contacts");
     }
     if range.slides() || laws.shear != ShearLaw::Newtonian {
@@ -290,7 +289,7 @@ fn given(spec: &TrainingSpec, windows: &[WindowSpec]) -> Result<(), Refused> {
     if windows.iter().any(|w| w.grid.kind() != spec.contact()) {
         return refuse("must be of one kind of contact: all grids Plane, or none".to_owned());
     }
-    let descend = |pair: &[WindowSpec]| pair[0].radius_ratio == pair[1].radius_ratio && pair[0].m.1 > pair[1].m.0;
+    let descend = |pair: &[WindowSpec]| pair[0].has_shapes_of(&pair[1]) && pair[0].m.1 > pair[1].m.0;
     if windows.iter().any(|w| w.m.0 >= w.m.1) || windows.windows(2).any(descend) {
         return refuse("must be non-empty intervals of M in ascending order".to_owned());
     }

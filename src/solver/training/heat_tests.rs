@@ -144,7 +144,7 @@ fn reduced_thermal_ellipses_agree_with_full_ones() {
         assert!(own.y == heat.y && own.balance.residual().abs() < 3e-2, "{:?}", own.balance);
         let traction = fields.traction_coefficient();
         assert!((solved.traction.unwrap() - traction).abs() < 1e-3 * traction.abs().max(1e-3));
-        *(if point.radius_ratio() < 1.0 { &mut narrow } else { &mut wide }) += 1;
+        *(if point.is_narrow() { &mut narrow } else { &mut wide }) += 1;
     }
     assert!(narrow > 0 && wide > 0);
     let point = random_points(&spec.range, ContactKind::Point, 1, 12)[0];

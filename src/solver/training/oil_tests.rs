@@ -7,7 +7,7 @@ use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::{ContactSolver, Problem, Start};
 use crate::solver::parameters::{Axis, Quantity};
 use crate::solver::physics::contact::{
-    ContactKind, MoesRequest, OperatingPoint, expected_film, moes_film, si_from_moes,
+    ContactKind, FilmShape, MoesRequest, OperatingPoint, expected_film, si_from_moes,
 };
 use crate::solver::physics::lubricant::{Cavitation, Lubricant, ViscosityLaw, roelands_exponent};
 use crate::solver::reduced::{
@@ -91,7 +91,7 @@ fn the_expected_film_is_moes_formula_in_the_solvers_units() {
     for (kind, m, l) in [(ContactKind::Line, 40.0, 10.0), (ContactKind::Point, 100.0, 6.0)] {
         let point = si_from_moes(&MoesRequest::new(kind, m, l)).unwrap();
         let two_u = 2.0 * point.viscosity_pa_s * point.speed_m_per_s / (point.modulus_pa * point.radius_m);
-        let film_m = moes_film(kind, point.moes()) * point.radius_m * two_u.sqrt();
+        let film_m = FilmShape::of(&point).film(point.moes()) * point.radius_m * two_u.sqrt();
         let expected = expected_film(&point) * point.film_scale_m();
         assert!((expected / film_m - 1.0).abs() < 1e-9, "{kind:?}: {expected:e} {film_m:e}");
     }

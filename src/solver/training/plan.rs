@@ -43,7 +43,8 @@ pub(super) struct Within {
     /// True for thermal contacts.
     pub heat: bool,
     pub m: (f64, f64),
-    pub radius_ratio: (f64, f64),
+    /// Interval of R_y/R.
+    pub ratios: (f64, f64),
     /// Cell of an anchor, including the region of blending.
     pub cell: Option<Cell>,
 }
@@ -90,26 +91,19 @@ impl TrainingSpec {
 impl Within {
     /// Returns the contacts with any M.
     pub fn all(range: &ParameterSpace, kind: ContactKind, heat: bool) -> Self {
-        Self {
-            range: range.clone(),
-            kind,
-            heat,
-            m: (0.0, f64::INFINITY),
-            radius_ratio: (0.0, f64::INFINITY),
-            cell: None,
-        }
+        Self { range: range.clone(), kind, heat, m: (0.0, f64::INFINITY), ratios: (0.0, f64::INFINITY), cell: None }
     }
 
     /// Restricts to the radius ratios that a local model covers, and to the cell of its anchor if given.
     pub fn served_by(self, window: &Window, cell: Option<Cell>) -> Self {
-        Self { radius_ratio: window.served_ratios(), cell, ..self }
+        Self { ratios: window.served_ratios(), cell, ..self }
     }
 
     /// Restricts to the radius ratios of a specification, and extends these and the range by the overlap of the
     /// training.
     pub fn beyond(self, window: &WindowSpec) -> Self {
-        let (low, high) = window.radius_ratio.unwrap_or((0.0, f64::INFINITY));
-        Self { radius_ratio: (low / OVERLAP, high * OVERLAP), range: self.range.beyond(), ..self }
+        let (low, high) = window.served_ratios();
+        Self { ratios: (low / OVERLAP, high * OVERLAP), range: self.range.beyond(), ..self }
     }
 
     fn at(&self, unit: Unit) -> Option<OperatingPoint> {
@@ -117,7 +111,7 @@ impl Within {
         let wanted = |point: &OperatingPoint| {
             let moes = point.moes();
             let served = self.cell.as_ref().is_none_or(|cell| cell.holds(moes, BEYOND_CELLS));
-            inside(moes.m, self.m) && inside(point.radius_ratio(), self.radius_ratio) && served
+            inside(moes.m, self.m) && inside(point.radius_ratio(), self.ratios) && served
         };
         self.range.at(self.kind, &unit).filter(wanted)
     }
@@ -143,7 +137,7 @@ impl Within {
         let mut pool = self.random_points((40 * count).max(2000), rng);
         // The corners of the range are its extremes, which a random pool never quite reaches.
         pool.extend(self.range.corners().filter_map(|corner| self.at(corner)));
-        let place = |p: &OperatingPoint| (p.moes(), p.alpha_per_pa.ln(), p.sliding, p.radius_ratio().ln());
+        let place = |p: &OperatingPoint| (p.moes(), p.alpha_per_pa.ln(), p.sliding, p.log_ratio());
         let by_metric = self.range.varies_lubricant() || self.range.is_rough();
         let metric = by_metric.then(|| Metric::of_plan(&self.range, self.heat));
         let coordinates: Vec<_> = pool.iter().map(place).collect();

@@ -218,12 +218,12 @@ impl TrainingSpec {
     /// Returns true if reduced solutions have temperatures along the lines of a plane, for which a solve with all
     /// rows is a hundred times as expensive.
     pub(super) fn warms_a_plane(&self) -> bool {
-        self.heats() && self.contact() == ContactKind::Point
+        self.heats() && self.contact().is_point()
     }
 
     /// Returns true if reduced solutions have temperatures along a line.
     pub(super) fn warms_a_line(&self) -> bool {
-        self.heats() && self.contact() == ContactKind::Line
+        self.heats() && self.contact().is_line()
     }
 
     /// Returns true for thermal contacts.
@@ -341,6 +341,11 @@ impl WindowSpec {
     /// Creates a local model of line or circular contacts.
     pub fn new(m: (f64, f64), grid: GridSpec) -> Self {
         Self { m, grid, radius_ratio: None, anchor: None, pressure_loss: None }
+    }
+
+    /// Returns the interval of R_y/R to which the local model is restricted; all numbers above 0 without one.
+    pub(super) fn served_ratios(&self) -> (f64, f64) {
+        self.radius_ratio.unwrap_or((0.0, f64::INFINITY))
     }
 
     /// Returns true if another local model has the same radius ratios.

@@ -5,7 +5,7 @@ use super::observer::TrainingObserver;
 use super::one_thread::{in_parallel, on_one_thread};
 use super::plan::Within;
 use super::spec::TrainingSpec;
-use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, TractionRule};
 use fastrand::Rng;
@@ -29,7 +29,7 @@ pub(super) fn traction_rule(
     seed: u64,
     observer: &dyn TrainingObserver,
 ) -> Result<Option<TractionRule>, TrainingError> {
-    if spec.contact() == ContactKind::Line && !spec.warms_a_line() {
+    if spec.contact().is_line() && !spec.warms_a_line() {
         return Ok(Some(TractionRule::whole()));
     }
     let mut rng = Rng::with_seed(seed ^ 0x7AC7_1041);

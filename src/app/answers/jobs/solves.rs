@@ -71,10 +71,7 @@ pub struct Jobs {
 /// Run time after which a newer request ends a live solve. The limit is longer for a point contact: if every slider
 /// movement ended its solve, the picture would never change.
 fn live_patience(kind: ContactKind) -> Duration {
-    match kind {
-        ContactKind::Line => Duration::from_millis(80),
-        ContactKind::Point => Duration::from_millis(800),
-    }
+    if kind.is_line() { Duration::from_millis(80) } else { Duration::from_millis(800) }
 }
 
 impl Jobs {

@@ -127,10 +127,7 @@ impl Along {
         let through = self.wanted.through;
         let other = |results: &Followed| results.in_use != *in_use || results.wanted.through != through;
         if self.results.as_ref().is_none_or(|results| results.unasked && other(results)) {
-            let points = match in_use.model.contact() {
-                ContactKind::Line => 41,
-                ContactKind::Point => 11,
-            };
+            let points = if in_use.model.contact().is_line() { 41 } else { 11 };
             self.begin(ctx, store, in_use, (Wanted { through, points }, true));
         }
     }

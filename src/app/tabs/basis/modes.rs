@@ -7,7 +7,6 @@ use crate::app::plot::axes;
 use crate::app::plot::key::{self, Entry, Sample};
 use crate::app::theme::Palette;
 use crate::solver::discrete::grid::ContactGrid;
-use crate::solver::physics::contact::ContactKind;
 use crate::solver::reduced::{PodBasis, Window};
 use egui::{Color32, ComboBox, Ui};
 use egui_plot::{Line, MarkerShape, PlotPoint, PlotPoints, Points};
@@ -26,7 +25,7 @@ const SHAPES: &str = "Mode shapes";
 /// Draws choices and plots.
 pub fn ui(ui: &mut Ui, view: &mut Shown, fit: bool, window: &Window, height: f32) {
     let palette = Palette::of(ui);
-    let of_points = window.grid.kind() == ContactKind::Point;
+    let of_points = window.grid.kind().is_point();
     ui.horizontal(|ui| {
         let label = ui.label("Modes of");
         ComboBox::from_id_salt("field of the modes")
@@ -130,7 +129,5 @@ fn shapes(
 /// weights and are hard to compare.
 fn mode_points(basis: &PodBasis, grid: &ContactGrid, k: usize) -> Vec<PlotPoint> {
     let points = plane::scaled(basis, k).into_iter().enumerate().map(|(node, v)| (grid.place(node), v));
-    // The node arrays of a line contact start with a node outside the inlet.
-    let outside = usize::from(grid.kind() == ContactKind::Line);
-    points.filter(|((_, y), _)| *y == 0.0).skip(outside).map(|((xi, _), v)| PlotPoint::new(xi, v)).collect()
+    points.filter(|((_, y), _)| *y == 0.0).skip(grid.first_column()).map(|((xi, _), v)| PlotPoint::new(xi, v)).collect()
 }

@@ -14,7 +14,6 @@ use crate::app::{export, numbers};
 use crate::engine::job::{Background, Standing};
 use crate::scene::study::model_sizes::{ModelSizes, Row, Varied};
 use crate::scene::{Grid, ModelSource, Study, StudyRow, View};
-use crate::solver::physics::contact::ContactKind;
 use crate::solver::reduced::{ReducedModel, Window};
 use egui::Ui;
 use egui_plot::{HoverPosition, Line, MarkerShape, PlotPoint, PlotPoints, Points, VLine};
@@ -65,7 +64,7 @@ impl Sizes {
         if self.of.as_ref().is_some_and(|(base, k)| *k == window && (same(base) || resampled)) {
             return;
         }
-        let contacts = if model.contact() == ContactKind::Line { 16 } else { 4 };
+        let contacts = if model.contact().is_line() { 16 } else { 4 };
         let study = ModelSizes {
             model: ModelSource::Embedded,
             contacts,

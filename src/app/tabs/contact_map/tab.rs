@@ -22,7 +22,6 @@ use crate::app::theme::{Palette, faded};
 use crate::app::units::{self, Scales};
 use crate::app::{badge, caption, numbers};
 use crate::solver::full::heat::Rises;
-use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::engineering::{QuantityKind, UnitSystem};
 use egui::{Align, Color32, CursorIcon, Layout, Response, RichText, Ui, Vec2, vec2};
 use egui_plot::{HLine, HoverPosition, Line, LineStyle, PlotBounds, PlotPoint, PlotPoints, PlotTransform, Text, VLine};
@@ -119,7 +118,7 @@ impl View for ContactMap {
     }
 
     fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
-        if context.document.point.kind == ContactKind::Line {
+        if context.document.point.kind.is_line() {
             self.line(ui, context, commands);
             return;
         }
@@ -160,7 +159,7 @@ impl View for ContactMap {
     }
 
     fn offers<'a>(&'a self, context: &Context<'a>) -> Vec<Offer<'a>> {
-        if context.document.point.kind == ContactKind::Line {
+        if context.document.point.kind.is_line() {
             return vec![space_time::offer(context)];
         }
         let picture = context.answers.picture().filter(|picture| picture.has_plane());
@@ -173,7 +172,7 @@ impl View for ContactMap {
     }
 
     fn caption(&self, context: &Context<'_>) -> Option<String> {
-        if context.document.point.kind == ContactKind::Line {
+        if context.document.point.kind.is_line() {
             return shared::caption(context.transient, context.system);
         }
         let more = export::particulars(context.answers, &self.view)?;

@@ -329,9 +329,9 @@ fn pins_ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
             let color = palette.ink(palette.pin(pin.number));
             let point = &pin.picture.key.point;
             let moes = point.moes();
-            let ratio = point.radius_y_m.map_or_else(String::new, |_| {
-                format!(", {{R_y}}/{{R}} {}", numbers::significant(point.radius_ratio()))
-            });
+            let ratio = point
+                .stated_ratio()
+                .map_or_else(String::new, |ratio| format!(", {{R_y}}/{{R}} {}", numbers::significant(ratio)));
             let text = format!(
                 "Pin {}, {}: {{M}} {}, {{L}} {}{ratio}, {{H_c}} {}",
                 pin.number,

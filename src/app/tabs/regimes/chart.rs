@@ -60,10 +60,6 @@ pub fn point(m: f64, l: f64) -> PlotPoint {
 impl ChartLines {
     /// Returns all lines for a shape and, if there is one, its model.
     pub fn new(shape: FilmShape, model: Option<&ReducedModel>) -> Self {
-        let kind = match shape {
-            FilmShape::Line => ContactKind::Line,
-            FilmShape::Ellipse(_) => ContactKind::Point,
-        };
         let mut lines = Vec::new();
         let mut add = |kind, value, points| lines.push(ChartLine { kind, value, points });
         for film in CONTOURS {
@@ -88,8 +84,8 @@ impl ChartLines {
         }
         // Point contacts of the dissertation.
         if shape == FilmShape::CIRCLE {
-            add(Kind::Table, None, outline(&ParameterSpace::table_3_4(), kind));
-            add(Kind::Trajectory, None, trajectory(&ParameterSpace::table_3_4(), kind));
+            add(Kind::Table, None, outline(&ParameterSpace::table_3_4(), shape.kind()));
+            add(Kind::Trajectory, None, trajectory(&ParameterSpace::table_3_4(), shape.kind()));
         }
         Self { lines, names: names(shape).into_iter().map(|(regime, [m, l])| (regime, point(m, l))).collect() }
     }
@@ -131,15 +127,9 @@ fn contour(shape: FilmShape, film: f64) -> Vec<PlotPoint> {
 /// share of that of a circular contact.
 fn hertz_pressure(shape: FilmShape) -> impl Fn(f64, f64) -> f64 {
     let pressure = |point: OperatingPoint| point.hertz().pressure_pa;
-    let (kind, share) = match shape {
-        FilmShape::Line => (ContactKind::Line, 1.0),
-        FilmShape::Ellipse(ratio) => {
-            let circle = OperatingPoint { kind: ContactKind::Point, ..OperatingPoint::TABLE_2_1 };
-            let ellipse = OperatingPoint { radius_y_m: Some(ratio * circle.radius_m), ..circle };
-            (ContactKind::Point, pressure(ellipse) / pressure(circle))
-        }
-    };
-    move |m, l| share * si_from_moes(&MoesRequest::new(kind, m, l)).map_or(f64::INFINITY, pressure)
+    let [own, circle] = shape.hertz_and_circle();
+    let share = own.pressure_pa / circle.pressure_pa;
+    move |m, l| share * si_from_moes(&MoesRequest::new(shape.kind(), m, l)).map_or(f64::INFINITY, pressure)
 }
 
 /// Returns L at which the default realisation reaches p_H = 3.2 GPa, for every M where it is in the chart. p_H

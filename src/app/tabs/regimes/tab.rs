@@ -113,11 +113,10 @@ impl Regimes {
         let beside = ui.available_width() > HINT;
         let row = if beside { egui::Layout::left_to_right(egui::Align::Center) } else { *ui.layout() };
         ui.allocate_ui_with_layout([ui.available_width(), 0.0].into(), row, |ui| {
-            let hint = match kind {
-                ContactKind::Line => {
-                    "Drag the contact across the chart. Contours are Moes’ film number ({h}/{R})/√(2{U})"
-                }
-                ContactKind::Point => "Drag the contact. Contours: ({h}/{R})/√(2{U}) of Nijenbanning, Venner and Moes",
+            let hint = if kind.is_line() {
+                "Drag the contact across the chart. Contours are Moes’ film number ({h}/{R})/√(2{U})"
+            } else {
+                "Drag the contact. Contours: ({h}/{R})/√(2{U}) of Nijenbanning, Venner and Moes"
             };
             // A refusal replaces the hint, so that the chart does not move.
             match context.entries.message(FIELD) {
@@ -256,7 +255,7 @@ impl View for Regimes {
             self.chart(ui, context, commands, ui.available_height());
         } else if ui.available_width() > 760.0 {
             ui.horizontal_top(|ui| {
-                let table = if context.document.point.kind == ContactKind::Line { 350.0 } else { 384.0 };
+                let table = if context.document.point.kind.is_line() { 350.0 } else { 384.0 };
                 let width = ui.available_width() - table - 14.0;
                 ui.vertical(|ui| {
                     ui.set_width(width);

@@ -66,11 +66,7 @@ pub fn sweep(document: &Document, answers: &Answers, choices: &Choices) -> Optio
                 Err(why) => (ends, Err(why)),
             },
             None => {
-                let what = match varied {
-                    Varied::RadiusRatio => "circular contacts only",
-                    Varied::Plateau => "one plateau ratio only",
-                    Varied::SlideToRoll | Varied::Speed => "other speeds",
-                };
+                let what = varied.trained_without();
                 (varied.everywhere(&key), Err(Refusal::new(format!("the reduced model was trained for {what}"))))
             }
         },

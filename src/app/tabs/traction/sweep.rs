@@ -131,16 +131,28 @@ impl Varied {
         }
     }
 
+    /// Returns the quantity in scenes and edits.
+    pub(super) fn quantity(self) -> Quantity {
+        match self {
+            Self::SlideToRoll => Quantity::SlideToRollRatio,
+            Self::Plateau => Quantity::NewtonianPlateauRatio,
+            Self::Speed => Quantity::Speed,
+            Self::RadiusRatio => Quantity::RadiusRatio,
+        }
+    }
+
     /// Returns the same contact with another value of it.
     pub fn at(self, point: &OperatingPoint, value: f64) -> OperatingPoint {
-        let mut point = *point;
+        self.quantity().at(point, value)
+    }
+
+    /// Returns the contacts for which a model was trained that does not vary the quantity, in words.
+    pub(super) fn trained_without(self) -> &'static str {
         match self {
-            Self::SlideToRoll => point.sliding.slide_to_roll_ratio = value,
-            Self::Plateau => point.sliding.newtonian_plateau_ratio = Some(value),
-            Self::Speed => point.speed_m_per_s = value,
-            Self::RadiusRatio => point.radius_y_m = Some(value * point.radius_m),
+            Self::RadiusRatio => "circular contacts only",
+            Self::Plateau => "one plateau ratio only",
+            Self::SlideToRoll | Self::Speed => "other speeds",
         }
-        point
     }
 
     /// Returns the values inside the trained range. Speeds apply to the load, radius and fluid of a contact. `None`
@@ -160,9 +172,12 @@ impl Varied {
                 // Both Moes numbers depend on the speed only through 2 η₀ u/(E′ R): (3.19), (3.22).
                 let speed = |group: f64| group * e * r / (2.0 * point.viscosity_pa_s);
                 let of_l = |l: f64| speed((l / (point.alpha_per_pa * e)).powi(4));
-                let of_m = |m: f64| match point.kind {
-                    ContactKind::Line => speed((point.load / (e * r * m)).powi(2)),
-                    ContactKind::Point => speed((point.load / (e * r * r * m)).powf(4.0 / 3.0)),
+                let of_m = |m: f64| {
+                    if point.kind.is_line() {
+                        speed((point.load / (e * r * m)).powi(2))
+                    } else {
+                        speed((point.load / (e * r * r * m)).powf(4.0 / 3.0))
+                    }
                 };
                 let (m, l) = (domain.m(), domain.l());
                 let ends = (of_l(l.0).max(of_m(m.1)), of_l(l.1).min(of_m(m.0)));
@@ -213,7 +228,16 @@ impl Against {
 
     /// Returns true if the quantity exists for a kind of contact.
     pub fn is_of(self, kind: ContactKind) -> bool {
-        self != Self::RadiusRatio || kind == ContactKind::Point
+        self != Self::RadiusRatio || kind.is_point()
+    }
+
+    /// Returns the reason why a contact has no sweep of the quantity.
+    pub(super) fn why_none(self) -> &'static str {
+        if self == Self::RadiusRatio {
+            "A roller has no radius across the rolling direction; choose Ball or Ellipse"
+        } else {
+            "The lubricant has no shear constants: it is Newtonian, and there is no plateau ratio to vary"
+        }
     }
 
     /// Returns the varied quantity.
@@ -290,10 +314,7 @@ impl Against {
         match self {
             Self::SlideToRoll | Self::Plateau | Self::Speed | Self::RadiusRatio => place,
             Self::Stribeck => place * point.load / point.viscosity_pa_s,
-            Self::LoadNumber => {
-                let exponent = if point.kind == ContactKind::Line { 0.5f64 } else { 0.75 };
-                point.speed_m_per_s * (point.moes().m / place).powf(1.0 / exponent)
-            }
+            Self::LoadNumber => point.speed_m_per_s * (point.moes().m / place).powf(1.0 / point.kind.speed_power()),
         }
     }
 }
@@ -309,13 +330,7 @@ impl Sweep {
             true => Steps::Log { from, to, n },
             false => Steps::Linear { from, to, n },
         };
-        let vary = match self.varied {
-            Varied::SlideToRoll => Quantity::SlideToRollRatio,
-            Varied::Plateau => Quantity::NewtonianPlateauRatio,
-            Varied::Speed => Quantity::Speed,
-            Varied::RadiusRatio => Quantity::RadiusRatio,
-        };
-        let over = vec![Axis { vary, values }];
+        let over = vec![Axis { vary: self.varied.quantity(), values }];
         let study = scene::Sweep { over, methods: vec![method], cold: false, compare_on_model_grid: false };
         question(title, &self.base, grid, Study::Sweep(study))
     }

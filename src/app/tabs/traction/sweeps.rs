@@ -12,7 +12,6 @@ use crate::app::wake::wake;
 use crate::engine::job::{Background, Standing};
 use crate::engine::{Store, Workbench};
 use crate::scene::{Grid, Method, StudyRow};
-use crate::solver::parameters::Quantity;
 use egui::Context;
 use serde::{Deserialize, Serialize};
 
@@ -206,13 +205,11 @@ impl Sweeps {
 /// Returns the edit that moves the contact to a position on the axis of the curve.
 pub fn edit_along(document: &Document, choices: &Choices, place: f64) -> Edit {
     let value = numbers::rounded(choices.against.value(&document.point, place), 3);
-    match choices.against.varied() {
-        Varied::SlideToRoll => {
-            let srr = value.max(0.0).copysign(document.point.sliding.slide_to_roll_ratio);
-            Edit::Quantity(Quantity::SlideToRollRatio, srr)
-        }
-        Varied::Plateau => Edit::Quantity(Quantity::NewtonianPlateauRatio, value.clamp(0.0, 1.0)),
-        Varied::Speed => Edit::Quantity(Quantity::Speed, value),
-        Varied::RadiusRatio => Edit::Quantity(Quantity::RadiusRatio, value),
-    }
+    let varied = choices.against.varied();
+    let value = match varied {
+        Varied::SlideToRoll => value.max(0.0).copysign(document.point.sliding.slide_to_roll_ratio),
+        Varied::Plateau => value.clamp(0.0, 1.0),
+        _ => value,
+    };
+    Edit::Quantity(varied.quantity(), value)
 }

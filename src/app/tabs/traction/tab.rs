@@ -70,12 +70,7 @@ impl View for Traction {
         }
         let Some((sweep, served)) = sweep(context.document, context.answers, choices) else {
             toolbar(ui, (choices, &self.sweeps), context, commands, false);
-            let why = if choices.against == Against::RadiusRatio {
-                "A roller has no radius across the rolling direction; choose Ball or Ellipse"
-            } else {
-                "The lubricant has no shear constants: it is Newtonian, and there is no plateau ratio to vary"
-            };
-            ui.centered_and_justified(|ui| ui.weak(why));
+            ui.centered_and_justified(|ui| ui.weak(choices.against.why_none()));
             return;
         };
         if let Ok(served) = &served {

@@ -8,9 +8,10 @@ use std::sync::LazyLock;
 /// Returns the presets for a kind of contact with their names. The tab shows the first one if the document has no
 /// training.
 pub fn of_kind(kind: ContactKind) -> Vec<(&'static str, &'static TrainingSpec)> {
-    let all = match kind {
-        ContactKind::Line => vec![("Table 3.1’s box", table_3_1()), ("Whole slider range", slider_range())],
-        ContactKind::Point => vec![("Table 3.4’s box", table_3_4())],
+    let all = if kind.is_line() {
+        vec![("Table 3.1’s box", table_3_1()), ("Whole slider range", slider_range())]
+    } else {
+        vec![("Table 3.4’s box", table_3_4())]
     };
     all.into_iter().filter_map(|(name, spec)| Some((name, spec?))).collect()
 }

@@ -65,9 +65,10 @@ impl Default for AmplitudeCurve {
 impl Wanted {
     /// Returns the grid of the steady contact and its spacing.
     fn grid(&self) -> (Grid, f64) {
-        match self.key.point.kind {
-            ContactKind::Line => (Grid::DISSERTATION, 0.005),
-            ContactKind::Point => (Grid::Plane(PointGridSpec::QUICK), PointGridSpec::QUICK.dx),
+        if self.key.point.kind.is_line() {
+            (Grid::DISSERTATION, 0.005)
+        } else {
+            (Grid::Plane(PointGridSpec::QUICK), PointGridSpec::QUICK.dx)
         }
     }
 
@@ -235,10 +236,8 @@ fn plot(ui: &mut Ui, of: &Wanted, rows: &[Row], (fit, height): (bool, f32)) {
         ))
     };
     let (low, high) = (PSI.0.log10() - 0.05, PSI.1.log10() + 0.05);
-    let title = match of.key.point.kind {
-        ContactKind::Line => "Ψ = (λ/{a}) {M}^(3/4)/{L}^(1/2)",
-        ContactKind::Point => "Ψ = (λ/{a}) ({M}/{L})^(1/2)",
-    };
+    let line = of.key.point.kind.is_line();
+    let title = if line { "Ψ = (λ/{a}) {M}^(3/4)/{L}^(1/2)" } else { "Ψ = (λ/{a}) ({M}/{L})^(1/2)" };
     let frame = axes::plot(ui, "amplitude curve", height, title, "|{A_d}/{A_i}|")
         .log_x()
         .default_x_bounds(low, high)
@@ -265,9 +264,10 @@ const PUBLISHED: &str = "published, pure rolling";
 
 fn legend(ui: &mut Ui, kind: ContactKind) {
     let palette = Palette::of(ui);
-    let source = match kind {
-        ContactKind::Line => "published: 1/(1 + 0.17Ψ + 0.03Ψ²), Venner and others 1997",
-        ContactKind::Point => "published: 1/(1 + 0.15Ψ + 0.015Ψ²), Venner and Lubrecht 2000",
+    let source = if kind.is_line() {
+        "published: 1/(1 + 0.17Ψ + 0.03Ψ²), Venner and others 1997"
+    } else {
+        "published: 1/(1 + 0.15Ψ + 0.015Ψ²), Venner and Lubrecht 2000"
     };
     key::ui(
         ui,

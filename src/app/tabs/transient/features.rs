@@ -14,7 +14,6 @@ use crate::app::units;
 use crate::scene::study::transient::{SurfaceFeature, SurfaceShape};
 use crate::scene::{Grid, TransientStudy};
 use crate::solver::full::transient::{Scheme, TimeStep};
-use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::engineering::QuantityKind;
 use egui::Ui;
 
@@ -184,8 +183,8 @@ fn speed_ui(ui: &mut Ui, document: &Document, feature: &SurfaceFeature) {
 fn steps_ui(ui: &mut Ui, form: &mut Form<'_>, document: &Document, study: &mut TransientStudy) {
     heading(ui, "Run");
     form.row(ui, "Duration {T}", QuantityKind::Number, &mut study.duration, "The last T, in units of a/u_m");
-    let spacing = match (document.point.kind, document.transient_grid()) {
-        (ContactKind::Line, Grid::Uniform { dx, .. }) => Some(dx),
+    let spacing = match document.transient_grid() {
+        Grid::Uniform { dx, .. } if document.point.kind.is_line() => Some(dx),
         _ => None,
     };
     if let Some(dx) = spacing {

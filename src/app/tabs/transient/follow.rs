@@ -11,7 +11,7 @@ use crate::engine::job::Background;
 use crate::scene::study::transient::{Kind, MarchedBy, Model, Row};
 use crate::scene::{Drive, ReducedTransient, Scene, StudyRow, TransientStudy};
 use crate::solver::full::transient::{Ended, Frame, Inputs};
-use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::training::ResponseTraining;
 use egui::Context;
 use std::sync::Arc;
@@ -130,7 +130,7 @@ impl TransientRuns {
     pub fn trained_by(&self) -> Option<Vec<Drive>> {
         let (setup, models) = self.following.kept.as_ref()?;
         let study = &setup.study;
-        if setup.point.kind == ContactKind::Point {
+        if setup.point.kind.is_point() {
             let of_model = |model: &Model| match &model.kind {
                 Kind::Reduced(reduced) => Some(ResponseTraining::of_model(reduced)),
                 Kind::Linearised { .. } => None,

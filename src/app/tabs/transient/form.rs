@@ -15,7 +15,6 @@ use crate::app::tabs::transient::shared::edit;
 use crate::app::theme::Palette;
 use crate::scene::TransientStudy;
 use crate::solver::full::transient::{Frame, Inputs, Signal, TimeStep, Unsupported};
-use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::engineering::QuantityKind;
 use egui::{Checkbox, Ui};
 use egui_plot::{Line, LineStyle, PlotPoints};
@@ -69,7 +68,7 @@ fn names(input: Input) -> Names {
 pub fn ui(ui: &mut Ui, last: &mut LastField, context: &Context<'_>, commands: &mut Commands) {
     let mut read_table = false;
     let kind = context.document.point.kind;
-    let point = kind == ContactKind::Point;
+    let point = kind.is_point();
     *last = edit(ui, ("transient", *last), context, commands, |ui, form, study| {
         heading(ui, "Inputs");
         for input in Input::ALL.into_iter().filter(|input| !(point && *input == Input::Radius)) {

@@ -15,9 +15,10 @@ use egui::{Checkbox, Ui};
 /// Draws the choice of all methods.
 pub fn ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStudy, kind: ContactKind) {
     heading(ui, "Methods");
-    let tip = match kind {
-        ContactKind::Line => "Always run: it trains the models and checks them",
-        ContactKind::Point => "Always run: it checks the models",
+    let tip = if kind.is_line() {
+        "Always run: it trains the models and checks them"
+    } else {
+        "Always run: it checks the models"
     };
     ui.add_enabled(false, Checkbox::new(&mut true, "Full system")).on_disabled_hover_text(tip);
     let mut on = study.reduced.is_some();
@@ -28,10 +29,10 @@ pub fn ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStudy, kind: Co
     }
     if let Some(reduced) = &mut study.reduced {
         reduced_ui(ui, form, reduced, kind);
-    } else if kind == ContactKind::Point {
+    } else if kind.is_point() {
         study.linearised = None;
     }
-    if kind == ContactKind::Line || study.reduced.is_some() {
+    if kind.is_line() || study.reduced.is_some() {
         linearised_ui(ui, form, study, kind);
     }
     form.message(ui, "Methods");
@@ -96,9 +97,10 @@ pub fn linearised_ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStud
         form.changed = Some("Methods");
     }
     let Some(linearised) = &mut study.linearised else { return };
-    let tip = match kind {
-        ContactKind::Line => "Pressure modes of its space; fewer than 85 cost accuracy",
-        ContactKind::Point => "Pressure modes of its space, at most those of the reduced model",
+    let tip = if kind.is_line() {
+        "Pressure modes of its space; fewer than 85 cost accuracy"
+    } else {
+        "Pressure modes of its space, at most those of the reduced model"
     };
     form.count(ui, "Modes", &mut linearised.modes, tip);
     let own = RULES.iter().position(|rule| rule.name() == linearised.selection.name()).unwrap_or(0);

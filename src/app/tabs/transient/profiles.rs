@@ -110,10 +110,7 @@ fn moment_at(run: &Run, time: f64) -> Option<&Moment> {
 /// Returns half-width and largest pressure of the dry contact at a moment, in the scales of the reference contact (4.1).
 pub fn dry(kind: ContactKind, moment: &Moment) -> (f64, f64) {
     let (load, radius) = (moment.input.load, moment.input.radius);
-    match kind {
-        ContactKind::Line => ((load * radius).sqrt(), (load / radius).sqrt()),
-        ContactKind::Point => ((load * radius).cbrt(), (load / (radius * radius)).cbrt()),
-    }
+    (kind.hertz_root(load * radius), kind.hertz_root(load / radius.powi(kind.radius_power())))
 }
 
 /// Draws the pressure of a dry contact.

@@ -6,7 +6,7 @@ use crate::engine::in_time;
 use crate::scene::{Grid, LinearisedTransient, ModelSource, ReducedTransient, Scene, Study, TransientStudy};
 use crate::solver::full::Problem;
 use crate::solver::full::transient::TimeStep;
-use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Lubricant;
 use std::path::{Path, PathBuf};
 
@@ -107,7 +107,7 @@ impl Setup {
             other => other.longest(self.study.duration),
         };
         let nodes = match self.grid {
-            _ if self.point.kind == ContactKind::Point => {
+            _ if self.point.kind.is_point() => {
                 let nodes = self.grid.point_spec().and_then(|spec| spec.nodes().ok());
                 nodes.map_or(f64::INFINITY, |(along, across)| OF_A_PLANE * (along * across) as f64)
             }

@@ -15,7 +15,6 @@ use crate::app::{caption, numbers};
 use crate::scene::TransientStudy;
 use crate::scene::study::transient::MarchedBy;
 use crate::solver::full::transient::Ended;
-use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::engineering::UnitSystem;
 use crate::solver::reduced::tpwl::{TpwlRecord, Weighting};
 use crate::solver::warning::Warning;
@@ -52,7 +51,7 @@ pub fn follow(context: &Context<'_>, commands: &mut Commands) {
 fn elsewhere(ui: &mut Ui, context: &Context<'_>, why: &str, commands: &mut Commands) {
     ui.weak(sentence(why));
     let tip = "A line contact with the same quantities";
-    if context.document.point.kind == ContactKind::Point
+    if context.document.point.kind.is_point()
         && context.document.no_transient().is_none()
         && ui.button("Show a line contact").on_hover_text(tip).clicked()
     {

@@ -222,9 +222,8 @@ impl Transient {
         let upper = upper.max(2.0 * LEAST_HEIGHT);
         let width = ui.available_width();
         let kind = view.setup.as_ref().map_or(ContactKind::Line, |setup| setup.point.kind);
-        let draw_map = |tab: &mut Self, ui: &mut Ui| match kind {
-            ContactKind::Line => tab.map.ui(ui, context, upper),
-            ContactKind::Point => tab.plane.ui(ui, context, &mut tab.map, upper),
+        let draw_map = |tab: &mut Self, ui: &mut Ui| {
+            if kind.is_line() { tab.map.ui(ui, context, upper) } else { tab.plane.ui(ui, context, &mut tab.map, upper) }
         };
         let map = if width < SIDE_BY_SIDE {
             let map = draw_map(self, ui);

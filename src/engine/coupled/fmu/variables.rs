@@ -142,7 +142,7 @@ impl Real {
     /// Returns the unit for a contact kind.
     pub(super) fn unit_in(&self, kind: ContactKind) -> String {
         let [line, point] = self.field.map_or(self.unit, |field| field.facts().units());
-        let unit = if kind == ContactKind::Line { line } else { point };
+        let unit = if kind.is_line() { line } else { point };
         unit.replace('·', ".")
     }
 
@@ -151,14 +151,14 @@ impl Real {
         let rough = matches!(model, SavedModel::Stationary(model) if model.domain.is_rough());
         match (self.name, model) {
             (ROUGHNESS | names::MIXED_FILM_RATIO_MIN | names::MIXED_LOAD_SHARE, _) if !rough => None,
-            (APPROACH_REFERENCE, SavedModel::InTime(model)) if model.window.grid.kind() == ContactKind::Point => None,
+            (APPROACH_REFERENCE, SavedModel::InTime(model)) if model.window.grid.kind().is_point() => None,
             // A transient model is of one contact. Its inputs are those that vary in its trainings.
             ("load" | names::SRR, SavedModel::InTime(_)) => Some(Role::Input),
             ("speed", SavedModel::InTime(model)) => model.domain.speed.varies().then_some(Role::Input),
             ("radius", SavedModel::InTime(model)) => model.domain.radius.varies().then_some(Role::Input),
             ("approach", SavedModel::InTime(_)) => Some(Role::Output),
             (_, SavedModel::InTime(_)) => (self.role == Role::Output).then_some(Role::Output),
-            (APPROACH_REFERENCE, SavedModel::Stationary(model)) if model.contact() == ContactKind::Point => None,
+            (APPROACH_REFERENCE, SavedModel::Stationary(model)) if model.contact().is_point() => None,
             ("load", _) if pressed == Pressed::Approach => Some(Role::Output),
             ("approach", _) if pressed == Pressed::Load => Some(Role::Output),
             _ => Some(self.role),

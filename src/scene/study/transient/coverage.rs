@@ -43,7 +43,7 @@ pub(in crate::scene::study) fn check(experiment: &Experiment) -> Checked {
 /// Refuses a contact that the full solver does not support in time, and names the field of the scene. Point contacts are
 /// supported, without the mass balance of a film in a plane.
 pub(super) fn check_full(experiment: &Experiment, balances: bool) -> Checked {
-    if experiment.contact == ContactKind::Line {
+    if experiment.contact.is_line() {
         return check(experiment);
     }
     Unsupported::check_lubricant(&experiment.lubricant).map_err(refused)?;

@@ -201,10 +201,7 @@ impl ReducedTransient {
 
     /// Returns the usual training of a contact.
     pub fn trained(kind: ContactKind) -> Self {
-        match kind {
-            ContactKind::Line => Self::default(),
-            ContactKind::Point => Self::by_responses(),
-        }
+        if kind.is_line() { Self::default() } else { Self::by_responses() }
     }
 
     /// Returns the embedded model.
@@ -247,7 +244,7 @@ impl ReducedTransient {
                 let problem = "must be the only field: it has its own numbers of modes and rows";
                 return Err(refuse("study.reduced.responses", problem));
             }
-            if kind == ContactKind::Line {
+            if kind.is_line() {
                 return Err(refuse(
                     "study.reduced.responses",
                     "is for point contacts; leave it out for a line contact",
@@ -260,7 +257,7 @@ impl ReducedTransient {
                 .check()
                 .map_err(|problem| refuse("study.reduced.responses", format!("is refused: {problem}")));
         }
-        if kind == ContactKind::Point {
+        if kind.is_point() {
             let problem = "must hold `responses: ()` or a model, because the contact is a point contact";
             return Err(refuse("study.reduced", problem));
         }
@@ -415,7 +412,7 @@ impl TransientStudy {
             coverage::check_models(experiment)?;
         }
         self.reduced.iter().try_for_each(|reduced| reduced.check(experiment))?;
-        if experiment.contact == ContactKind::Point && self.linearised.is_some() && self.reduced.is_none() {
+        if experiment.contact.is_point() && self.linearised.is_some() && self.reduced.is_none() {
             let problem = "needs `reduced` for a point contact: both models have one basis";
             return Err(refuse("study.linearised", problem));
         }

@@ -66,7 +66,7 @@ impl TransientStudy {
     pub fn trains(&self, kind: ContactKind) -> bool {
         let models =
             self.linearised.is_some() || self.reduced.as_ref().is_some_and(|reduced| reduced.training().is_some());
-        models && kind == ContactKind::Line
+        models && kind.is_line()
     }
 
     /// Returns true if models are trained from the march along the study's own inputs.

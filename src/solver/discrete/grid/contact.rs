@@ -61,6 +61,12 @@ impl GridSpec {
         }
     }
 
+    /// Returns the first column of nodes with a film. Node arrays of a line contact begin with a node outside the
+    /// inlet.
+    pub fn first_column(&self) -> usize {
+        if self.kind().is_line() { INLET } else { 0 }
+    }
+
     /// Builds the grid and its kernel. This is expensive and done once per specification.
     ///
     /// # Errors
@@ -132,13 +138,9 @@ impl ContactGrid {
         }
     }
 
-    /// Returns the first column of nodes with a film. Node arrays of a line contact begin with a node outside the
-    /// inlet.
+    /// Returns the first column of nodes with a film, see [`GridSpec::first_column`].
     pub fn first_column(&self) -> usize {
-        match self {
-            Self::Line(_) => INLET,
-            Self::Point(_) => 0,
-        }
+        self.spec().first_column()
     }
 
     /// Returns the number of unknown pressures.

@@ -15,7 +15,7 @@ use super::contact::GridSpec;
 use super::error::GridError;
 use super::line::{LONGEST_INLET, LONGEST_OUTLET, MAX_GRADED_NODES, explorer_cells, registration_scale};
 use super::point::PointGridSpec;
-use crate::solver::physics::contact::{ContactKind, Ellipse, FilmShape, Moes, OperatingPoint};
+use crate::solver::physics::contact::{Ellipse, FilmShape, Moes, OperatingPoint};
 use std::f64::consts::PI;
 
 /// Accepted relative error of H_c due to the end of the inlet.
@@ -55,9 +55,9 @@ const STIFF: f64 = 50.0;
 
 /// Quantities that determine the choice of a grid.
 struct Fit {
-    kind: ContactKind,
+    shape: FilmShape,
     moes: Moes,
-    /// Shape of the contact; a circle for a line contact.
+    /// Contact ellipse; a circle for a line contact.
     ellipse: Ellipse,
     /// λ̄ of (2.23).
     lambda: f64,
@@ -74,36 +74,32 @@ struct Fit {
 
 impl Fit {
     fn of(point: &OperatingPoint) -> Self {
-        Self::new(point.kind, point.moes(), point.ellipse())
+        Self::new(FilmShape::of(point), point.moes(), point.ellipse())
     }
 
     fn line(moes: Moes) -> Self {
-        Self::new(ContactKind::Line, moes, Ellipse::CIRCLE)
+        Self::new(FilmShape::Line, moes, Ellipse::CIRCLE)
     }
 
-    fn new(kind: ContactKind, moes: Moes, ellipse: Ellipse) -> Self {
+    fn new(shape: FilmShape, moes: Moes, ellipse: Ellipse) -> Self {
         let Moes { m, l } = moes;
-        let (lambda, alpha_hertz, film) = match kind {
-            ContactKind::Line => {
+        let (lambda, alpha_hertz, film) = match shape {
+            FilmShape::Line => {
                 let scale = PI / (8.0 * m);
                 (3.0 * PI * PI / (8.0 * m * m), l * (m / (2.0 * PI)).sqrt(), scale)
             }
             // (h/R)(2U)^(−1/2), over a²/R² = (3M/2)^(2/3) (2U)^(1/2).
-            ContactKind::Point if ellipse == Ellipse::CIRCLE => (
+            FilmShape::CIRCLE => (
                 (128.0 * PI.powi(3) / (3.0 * m.powi(4))).cbrt(),
                 l * (1.5 * m / PI.powi(3)).cbrt(),
                 (1.5 * m).powf(-2.0 / 3.0),
             ),
             // The same with a³/R³ = (3J_x/π) M (2U)^¾ and p_H = 3w/(2πκa²).
-            ContactKind::Point => {
+            FilmShape::Ellipse(_) => {
                 let axis = (3.0 * ellipse.integral * m / PI).cbrt();
                 let lambda = 4.0 * PI * ellipse.kappa / (m * axis);
                 (lambda, l * 1.5 * m / (PI * ellipse.kappa * axis * axis), axis.powi(-2))
             }
-        };
-        let shape = match kind {
-            ContactKind::Line => FilmShape::Line,
-            ContactKind::Point => FilmShape::Ellipse(ellipse.radius_ratio),
         };
         // At pressures far beyond those of real contacts, Moes' film thickness is too large, because the viscosity
         // rises less than by Barus' law.
@@ -112,19 +108,17 @@ impl Fit {
         let thickness = |m: f64| shape.film(Moes { m, l });
         let by_load = (thickness(0.95 * m) / thickness(1.05 * m)).ln() / f64::ln(1.05 / 0.95);
         let width = (2.0 * film * thickness(m)).sqrt();
-        Self { kind, moes, ellipse, lambda, alpha_hertz, zone, width, by_load: by_load.max(0.0) }
+        Self { shape, moes, ellipse, lambda, alpha_hertz, zone, width, by_load: by_load.max(0.0) }
     }
 
     /// Returns the error due to an inlet at X = −`reach`.
     fn truncation(&self, reach: f64) -> f64 {
         let Self { lambda, alpha_hertz, .. } = self;
-        match self.kind {
-            ContactKind::Line => lambda * (4.0 / 3.0 * alpha_hertz / reach + 0.42) / (reach * reach),
+        match self.shape {
+            FilmShape::Line => lambda * (4.0 / 3.0 * alpha_hertz / reach + 0.42) / (reach * reach),
             // The sides are always half as far.
-            ContactKind::Point if self.ellipse == Ellipse::CIRCLE => {
-                lambda * (0.8 * alpha_hertz / reach.powi(3) + 1.2 * self.by_load / reach)
-            }
-            ContactKind::Point => self.ends(reach, 0.5 * reach).iter().sum(),
+            FilmShape::CIRCLE => lambda * (0.8 * alpha_hertz / reach.powi(3) + 1.2 * self.by_load / reach),
+            FilmShape::Ellipse(_) => self.ends(reach, 0.5 * reach).iter().sum(),
         }
     }
 
@@ -133,7 +127,7 @@ impl Fit {
     fn ends(&self, reach: f64, side: f64) -> [f64; 2] {
         let curvature = self.ellipse.gap_curvature();
         // P X² R⁴/|X|³ of the tail, and the part of ∮P x·n along the ends that is load; the total load is 2π/3.
-        let tail = 4.0 * self.lambda / (3.0 + 2.0 / self.ellipse.radius_ratio);
+        let tail = 4.0 * self.lambda / self.shape.far_field_factor();
         let share = 1.5 / PI * self.by_load;
         let (square, edge, root) = (reach * reach, curvature * side * side, curvature.sqrt());
         let across = side / (square * (square + edge)) + (side * root / reach).atan() / (reach.powi(3) * root);
@@ -169,7 +163,7 @@ impl Fit {
     /// Creates the error for a film that does not fit into any extension of `grid`.
     fn too_wide(&self, grid: PointGridSpec) -> GridError {
         let Moes { m, l } = self.moes;
-        let holds = |m: &f64| grid.domain_for(&Self::new(self.kind, Moes { m: *m, l }, self.ellipse)).is_some();
+        let holds = |m: &f64| grid.domain_for(&Self::new(self.shape, Moes { m: *m, l }, self.ellipse)).is_some();
         let lowest = std::iter::successors(Some(m), |m| Some(1.02 * m)).take_while(|m| *m < HEAVIEST).find(holds);
         let own = match self.reach(TRUNCATION) {
             reach if reach < LONGEST_INLET => {
@@ -379,9 +373,10 @@ impl GridSpec {
     /// # Errors
     /// If no grid of its kind resolves the film.
     pub fn explorer_for(point: &OperatingPoint) -> Result<Self, GridError> {
-        match point.kind {
-            ContactKind::Line => Self::line_for(point.moes()),
-            ContactKind::Point => PointGridSpec::EXPLORER.for_contact(point).map(Self::Plane),
+        if point.kind.is_line() {
+            Self::line_for(point.moes())
+        } else {
+            PointGridSpec::EXPLORER.for_contact(point).map(Self::Plane)
         }
     }
 }
@@ -390,7 +385,7 @@ impl GridSpec {
 mod tests {
     use super::*;
     use crate::solver::parameters::Quantity;
-    use crate::solver::physics::contact::{MoesRequest, si_from_moes};
+    use crate::solver::physics::contact::{ContactKind, MoesRequest, si_from_moes};
 
     fn at(kind: ContactKind, m: f64, l: f64) -> OperatingPoint {
         si_from_moes(&MoesRequest::new(kind, m, l)).unwrap()

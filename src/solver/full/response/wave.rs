@@ -101,10 +101,7 @@ fn check_derivative(derivative: TimeDerivative, x: &[f64]) -> Result<(), Respons
 /// contact (Venner, Couhier, Lubrecht and Greenwood 1997), ∇₂ = (λ/a) (M/L)^(1/2) of a point contact (Venner and
 /// Lubrecht 2000).
 pub fn reduction_parameter(kind: ContactKind, Moes { m, l }: Moes, wavelength: f64) -> f64 {
-    match kind {
-        ContactKind::Line => wavelength * m.powf(0.75) / l.sqrt(),
-        ContactKind::Point => wavelength * (m / l).sqrt(),
-    }
+    if kind.is_line() { wavelength * m.powf(0.75) / l.sqrt() } else { wavelength * (m / l).sqrt() }
 }
 
 /// Published |A_d/A_i| for pure rolling.
@@ -124,9 +121,6 @@ impl PublishedReduction {
 
 /// Returns the published curve of a kind of contact.
 pub fn published_reduction(kind: ContactKind) -> PublishedReduction {
-    let coefficients = match kind {
-        ContactKind::Line => [0.17, 0.03],
-        ContactKind::Point => [0.15, 0.015],
-    };
+    let coefficients = if kind.is_line() { [0.17, 0.03] } else { [0.15, 0.015] };
     PublishedReduction { coefficients }
 }

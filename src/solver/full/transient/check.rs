@@ -9,7 +9,6 @@ use super::unsupported::Unsupported;
 use crate::solver::full::Problem;
 use crate::solver::full::response::{is_uniform, widest_spacing};
 use crate::solver::limits::Number;
-use crate::solver::physics::contact::ContactKind;
 
 /// Number of times at which the speed of a point contact is checked.
 const WATCHED: usize = 10_000;
@@ -55,7 +54,7 @@ impl Transient {
                 return Err(SurfaceError("a prescribed separation needs the fixed frame".to_owned()).into());
             }
         }
-        if self.point.kind == ContactKind::Point {
+        if self.point.kind.is_point() {
             self.check_point()?;
         }
         self.check_surfaces()

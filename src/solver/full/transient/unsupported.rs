@@ -35,7 +35,7 @@ impl Unsupported {
     /// # Errors
     /// The first reason why they do not.
     pub fn check(kind: ContactKind, lubricant: &Lubricant) -> Result<(), Self> {
-        if kind == ContactKind::Point { Err(Self::PointContact) } else { Self::check_lubricant(lubricant) }
+        if kind.is_point() { Err(Self::PointContact) } else { Self::check_lubricant(lubricant) }
     }
 
     /// Checks that full transient simulations support a lubricant.

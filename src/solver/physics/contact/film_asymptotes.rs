@@ -1,7 +1,7 @@
 //! The four asymptotes of the film thickness, and formulas that join them: Moes' for line contacts, and that of
 //! Nijenbanning, Venner and Moes for elliptical contacts.
 
-use super::{ContactKind, Ellipse, Moes, OperatingPoint};
+use super::{ContactKind, Hertz, Moes, OperatingPoint};
 use std::f64::consts::PI;
 
 /// The four asymptotes of a film number H = (h/R)(2U)^(−1/2), as joined by the formulas of Moes and of Nijenbanning,
@@ -18,7 +18,7 @@ pub struct FilmAsymptotes {
     pub elastic_piezoviscous: f64,
 }
 
-/// Shape of contact for a film-thickness formula.
+/// Shape of a contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FilmShape {
     /// Line contact.
@@ -33,17 +33,57 @@ impl FilmShape {
 
     /// Returns the shape of a contact.
     pub fn of(point: &OperatingPoint) -> Self {
-        match point.kind {
-            ContactKind::Line => Self::Line,
-            ContactKind::Point => Self::Ellipse(point.radius_ratio()),
+        if point.kind.is_line() { Self::Line } else { Self::Ellipse(point.radius_ratio()) }
+    }
+
+    /// Returns its kind of contact.
+    pub fn kind(self) -> ContactKind {
+        match self {
+            Self::Line => ContactKind::Line,
+            Self::Ellipse(_) => ContactKind::Point,
         }
     }
 
-    /// Returns Moes' film number H = (h/R)(2U)^(−1/2) of the central film thickness; see [`moes_film`] and
-    /// [`ellipse_film`].
+    /// Returns its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Line => "line contact",
+            Self::CIRCLE => "circular contact",
+            Self::Ellipse(_) => "elliptical contact",
+        }
+    }
+
+    /// Returns the Hertzian scales of an elliptical contact, and those of a circular contact with the same R, load and
+    /// modulus. Only their ratios have a meaning; they are 1 for a line contact.
+    pub fn hertz_and_circle(self) -> [Hertz; 2] {
+        let contact = OperatingPoint { kind: self.kind(), ..OperatingPoint::TABLE_2_1 };
+        let radius_y_m = match self {
+            Self::Line => None,
+            Self::Ellipse(radius_ratio) => Some(radius_ratio * contact.radius_m),
+        };
+        [OperatingPoint { radius_y_m, ..contact }, contact].map(|point| point.hertz())
+    }
+
+    /// Returns the factor 3 + 2R/R_y of the pressure P = −λ̄X/(3 + 2R/R_y)/H² far from the contact; 3 for a line
+    /// contact. H is the film thickness, λ̄ the speed parameter of (2.23). Source: Kapitza 1955.
+    pub fn far_field_factor(self) -> f64 {
+        match self {
+            Self::Line => 3.0,
+            Self::Ellipse(radius_ratio) => 3.0 + 2.0 / radius_ratio,
+        }
+    }
+
+    /// Returns the film number H = (h/R)(2U)^(−1/2) of the central film thickness.
+    ///
+    /// Line contact: Moes, Wear 159 (1992) 57–66; 5 ≤ M ≤ 1000, 0 ≤ L ≤ 25, Barus viscosity, incompressible fluid.
+    ///
+    /// Circular and elliptical contact: Nijenbanning, Venner and Moes, Wear 176 (1994) 217–229. The formula covers all
+    /// regimes; its accuracy is shown there for R_y/R ≥ 1. For circular contacts full solutions with Barus' law and no
+    /// compressibility lie 8–15 % above it, with Roelands and Dowson–Higginson 6–13 % below (M 20…200, L 2.5…10,
+    /// default realisation).
     pub fn film(self, moes: Moes) -> f64 {
         match self {
-            Self::Line => moes_film(ContactKind::Line, moes),
+            Self::Line => line_film(moes),
             Self::Ellipse(radius_ratio) => ellipse_film(radius_ratio, moes),
         }
     }
@@ -79,30 +119,18 @@ impl FilmAsymptotes {
     }
 }
 
-/// Returns Moes' film number H = (h/R)(2U)^(−1/2) of the central film thickness for a kind of contact.
-///
-/// Line contact: Moes, Wear 159 (1992) 57–66; 5 ≤ M ≤ 1000, 0 ≤ L ≤ 25, Barus viscosity, incompressible fluid.
-/// Circular point contact: [`ellipse_film`] at equal radii. Full solutions with Barus' law and no compressibility lie
-/// 8–15 % above it, with Roelands and Dowson–Higginson 6–13 % below (M 20…200, L 2.5…10, default realisation).
-pub fn moes_film(kind: ContactKind, moes: Moes) -> f64 {
-    match kind {
-        ContactKind::Line => {
-            let a = FilmAsymptotes::of(FilmShape::Line, moes);
-            let s = (7.0 + 8.0 * (-2.0 * a.elastic_isoviscous / a.rigid_isoviscous).exp()) / 5.0;
-            let iso = a.rigid_isoviscous.powf(7.0 / 3.0) + a.elastic_isoviscous.powf(7.0 / 3.0);
-            let piezo = a.rigid_piezoviscous.powf(-3.5) + a.elastic_piezoviscous.powf(-3.5);
-            (iso.powf(3.0 * s / 7.0) + piezo.powf(-2.0 * s / 7.0)).powf(1.0 / s)
-        }
-        ContactKind::Point => ellipse_film(1.0, moes),
-    }
+/// Returns Moes' film number of a line contact, see [`FilmShape::film`].
+fn line_film(moes: Moes) -> f64 {
+    let a = FilmAsymptotes::of(FilmShape::Line, moes);
+    let s = (7.0 + 8.0 * (-2.0 * a.elastic_isoviscous / a.rigid_isoviscous).exp()) / 5.0;
+    let iso = a.rigid_isoviscous.powf(7.0 / 3.0) + a.elastic_isoviscous.powf(7.0 / 3.0);
+    let piezo = a.rigid_piezoviscous.powf(-3.5) + a.elastic_piezoviscous.powf(-3.5);
+    (iso.powf(3.0 * s / 7.0) + piezo.powf(-2.0 * s / 7.0)).powf(1.0 / s)
 }
 
-/// Returns Nijenbanning, Venner and Moes' film number H = (h/R)(2U)^(−1/2) of the central film thickness for an
-/// elliptical contact. `radius_ratio` (above 0) is R_y/R, the ratio of the radii across and along the rolling
-/// direction.
-///
-/// Source: Wear 176 (1994) 217–229. The formula covers all regimes; its accuracy is shown there for R_y/R ≥ 1.
-pub fn ellipse_film(radius_ratio: f64, moes: Moes) -> f64 {
+/// Returns Nijenbanning, Venner and Moes' film number of an elliptical contact, see [`FilmShape::film`].
+/// `radius_ratio` (above 0) is R_y/R, the ratio of the radii across and along the rolling direction.
+fn ellipse_film(radius_ratio: f64, moes: Moes) -> f64 {
     let a = FilmAsymptotes::of_ellipse(radius_ratio, moes);
     let s = 1.5 * (1.0 + (-1.2 * a.elastic_isoviscous / a.elastic_piezoviscous).exp());
     // The isoviscous-elastic asymptote is limited where the contact is rigid.
@@ -112,17 +140,16 @@ pub fn ellipse_film(radius_ratio: f64, moes: Moes) -> f64 {
     (iso.powf(2.0 * s / 3.0) + piezo.powf(-s / 8.0)).powf(1.0 / s)
 }
 
-/// Returns the central film thickness H_c in units of a²/R by the formula for a contact's shape: [`moes_film`] or
-/// [`ellipse_film`].
+/// Returns the central film thickness H_c in units of a²/R by the formula for a contact's shape, [`FilmShape::film`].
 pub fn expected_film(point: &OperatingPoint) -> f64 {
-    let moes = point.moes();
-    let film = FilmShape::of(point).film(moes);
-    match point.kind {
+    let (shape, moes) = (FilmShape::of(point), point.moes());
+    let film = shape.film(moes);
+    match shape {
         // (a/R)² = (8/π) M √(2U) of a line contact, and h/R = Ĥ √(2U).
-        ContactKind::Line => film * PI / (8.0 * moes.m),
+        FilmShape::Line => film * PI / (8.0 * moes.m),
         // (a/R)³ = (3J_x/π) M (2U)^¾ of an elliptical contact, where J_x = π/2 for a circular one.
-        ContactKind::Point if point.ellipse() == Ellipse::CIRCLE => film * (1.5 * moes.m).powf(-2.0 / 3.0),
-        ContactKind::Point => film * (3.0 * point.ellipse().integral * moes.m / PI).powf(-2.0 / 3.0),
+        FilmShape::CIRCLE => film * (1.5 * moes.m).powf(-2.0 / 3.0),
+        FilmShape::Ellipse(_) => film * (3.0 * point.ellipse().integral * moes.m / PI).powf(-2.0 / 3.0),
     }
 }
 
@@ -132,11 +159,11 @@ mod tests {
 
     #[test]
     fn moes_formula_tends_to_its_asymptotes() {
-        let elastic_iso = moes_film(ContactKind::Line, Moes { m: 1e3, l: 1e-9 });
+        let elastic_iso = FilmShape::Line.film(Moes { m: 1e3, l: 1e-9 });
         assert!((elastic_iso / (2.621 * 1e3f64.powf(-0.2)) - 1.0).abs() < 1e-2);
-        let elastic_piezo = moes_film(ContactKind::Line, Moes { m: 1e5, l: 1e3 });
+        let elastic_piezo = FilmShape::Line.film(Moes { m: 1e5, l: 1e3 });
         assert!((elastic_piezo / (1.311 * 1e5f64.powf(-0.125) * 1e3f64.powf(0.75)) - 1.0).abs() < 2e-2);
-        let rigid_iso = moes_film(ContactKind::Line, Moes { m: 1e-3, l: 1e-9 });
+        let rigid_iso = FilmShape::Line.film(Moes { m: 1e-3, l: 1e-9 });
         assert!((rigid_iso / 3e3 - 1.0).abs() < 1e-3);
     }
 
@@ -186,7 +213,7 @@ mod tests {
         let (ratio, kappa, j) = (20.0, 6.9286809644, 0.2830404228f64);
         for (m, l) in [(200.0, 6.0), (1000.0, 10.0), (2000.0, 15.0)] {
             let load = 0.5 * PI * (3.0 * m * j / PI).powf(2.0 / 3.0) / f64::powi(kappa * j, 2);
-            let line = moes_film(ContactKind::Line, Moes { m: load, l });
+            let line = FilmShape::Line.film(Moes { m: load, l });
             let film = ellipse_film(ratio, Moes { m, l }) / line;
             assert!((0.9..1.02).contains(&film), "M {m}, L {l}: {film}");
         }

@@ -1,8 +1,7 @@
 //! Published film-thickness formulas for line contacts and for elliptical contacts, which include circular ones, each
 //! with its source and range of validity.
 
-use super::film_asymptotes::{ellipse_film, moes_film};
-use super::{ContactKind, OperatingPoint};
+use super::{ContactKind, FilmShape, OperatingPoint};
 use serde::{Deserialize, Serialize};
 
 /// Published formula, as listed in the Regimes tab and in the formula-comparison scene.
@@ -40,10 +39,7 @@ pub struct FilmPrediction {
 impl FilmFormula {
     /// Returns all formulas for a kind of contact.
     pub fn of(kind: ContactKind) -> &'static [Self] {
-        match kind {
-            ContactKind::Line => &Self::LINE,
-            ContactKind::Point => &Self::POINT,
-        }
+        if kind.is_line() { &Self::LINE } else { &Self::POINT }
     }
 
     /// All formulas for line contacts.
@@ -120,18 +116,16 @@ impl FilmFormula {
     /// film thicknesses of full solutions for R_y/R 0.2…20 lie within 20 % of them.
     pub fn relative_film(self, point: &OperatingPoint) -> f64 {
         let radius_ratio = point.radius_ratio();
-        let area = match point.kind {
-            ContactKind::Line => point.radius_m,
-            ContactKind::Point => point.radius_m * point.radius_m,
-        };
         let (u, g) = (point.speed_group() / 2.0, point.alpha_per_pa * point.modulus_pa);
-        let w = point.load / (point.modulus_pa * area);
+        let w = point.load / (point.modulus_pa * point.radius_m.powi(point.kind.radius_power()));
         let power = |u_power: f64, g_power: f64, w_power: f64| u.powf(u_power) * g.powf(g_power) * w.powf(w_power);
         let leakage = radius_ratio.powf(2.0 / 3.0);
         let k = ellipticity(radius_ratio);
         match self {
-            Self::MoesLine => moes_film(ContactKind::Line, point.moes()) * point.speed_group().sqrt(),
-            Self::NijenbanningVennerMoes => ellipse_film(radius_ratio, point.moes()) * point.speed_group().sqrt(),
+            Self::MoesLine => FilmShape::Line.film(point.moes()) * point.speed_group().sqrt(),
+            Self::NijenbanningVennerMoes => {
+                FilmShape::Ellipse(radius_ratio).film(point.moes()) * point.speed_group().sqrt()
+            }
             Self::DowsonHigginson => 2.65 * power(0.7, 0.54, -0.13),
             Self::DowsonToyoda => 3.06 * power(0.69, 0.56, -0.10),
             Self::HamrockDowsonCentral => 2.69 * power(0.67, 0.53, -0.067) * (1.0 - 0.61 * (-0.73 * k).exp()),
@@ -179,10 +173,10 @@ mod tests {
         // Film numbers extrapolated by an independent multigrid code (Roelands, compressible): within some per cent of
         // the fit.
         for (m, l, film) in [(20.0, 5.0, 2.99), (50.0, 10.0, 4.03), (100.0, 5.0, 2.74)] {
-            let fit = moes_film(ContactKind::Point, Moes { m, l });
+            let fit = FilmShape::CIRCLE.film(Moes { m, l });
             assert!((fit / film - 1.0).abs() < 0.05, "{m} {l}: {fit}");
         }
-        let rigid = moes_film(ContactKind::Point, Moes { m: 0.01, l: 1e-9 });
+        let rigid = FilmShape::CIRCLE.film(Moes { m: 0.01, l: 1e-9 });
         assert!((rigid / (145.0 * 1.796f64.powf(-15.0 / 7.0) * 1e4) - 1.0).abs() < 1e-3, "{rigid}");
         let point =
             OperatingPoint { kind: ContactKind::Point, load: 50.0, radius_m: 0.01, ..OperatingPoint::TABLE_2_1 };

@@ -16,7 +16,7 @@ mod sliding;
 
 pub use ellipse::Ellipse;
 pub use error::ContactError;
-pub use film_asymptotes::{FilmAsymptotes, FilmShape, ellipse_film, expected_film, moes_film};
+pub use film_asymptotes::{FilmAsymptotes, FilmShape, expected_film};
 pub use film_formulas::{FilmFormula, FilmPrediction};
 pub use kind::ContactKind;
 pub use moes::{DEFAULT_MODULUS_PA, DEFAULT_VISCOSITY_PA_S, MoesRequest, si_from_moes};

@@ -45,18 +45,12 @@ impl MoesRequest {
     }
 
     fn default_radius(&self) -> f64 {
-        match self.kind {
-            ContactKind::Line => 3e-3,
-            ContactKind::Point => 10e-3,
-        }
+        if self.kind.is_line() { 3e-3 } else { 10e-3 }
     }
 
     /// Returns α of the default realisation \[1/Pa\].
     pub fn default_alpha(&self) -> f64 {
-        match self.kind {
-            ContactKind::Line => 5e-9 * self.l.powf(0.463),
-            ContactKind::Point => 5e-9 * (self.l / 1.7).powf(0.655),
-        }
+        if self.kind.is_line() { 5e-9 * self.l.powf(0.463) } else { 5e-9 * (self.l / 1.7).powf(0.655) }
     }
 }
 
@@ -102,10 +96,7 @@ fn si_from_moes_with(request: &MoesRequest) -> Result<OperatingPoint, ContactErr
     let eta = request.viscosity_pa_s.unwrap_or(DEFAULT_VISCOSITY_PA_S);
     let radius_default = request.default_radius();
     // The load is E′ R^d u^q M with the speed group u = 2 η₀ u_m / (E′ R).
-    let (d, q): (f64, f64) = match kind {
-        ContactKind::Line => (1.0, 0.5),
-        ContactKind::Point => (2.0, 0.75),
-    };
+    let (d, q) = (f64::from(kind.radius_power()), kind.speed_power());
     let group_of_alpha = |alpha: f64| (l / (alpha * e)).powi(4);
     let alpha_of_group = |group: f64| l / (e * group.powf(0.25));
     let overdetermined = |given: &'static str| Err(ContactError::Overdetermined { given });

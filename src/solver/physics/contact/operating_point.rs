@@ -114,6 +114,26 @@ impl OperatingPoint {
         self.radius_y_m.map_or(1.0, |radius_y| radius_y / self.radius_m)
     }
 
+    /// Returns R_y/R_x of a contact with a stated radius across; `None` without one.
+    pub fn stated_ratio(&self) -> Option<f64> {
+        self.radius_y_m.map(|_| self.radius_ratio())
+    }
+
+    /// Returns ln R_y/R_x; 0 for circular and line contacts.
+    pub fn log_ratio(&self) -> f64 {
+        self.radius_ratio().ln()
+    }
+
+    /// Returns the logarithm of R_y/R_x over that of another contact.
+    pub fn log_ratio_over(&self, other: &Self) -> f64 {
+        (self.radius_ratio() / other.radius_ratio()).ln()
+    }
+
+    /// Returns true for an elliptical contact that is long along the rolling direction: R_y is smaller than R_x.
+    pub fn is_narrow(&self) -> bool {
+        self.radius_ratio() < 1.0
+    }
+
     /// Returns true for an elliptical contact, false for a circular or line contact.
     pub fn is_elliptic(&self) -> bool {
         self.radius_ratio() != 1.0
@@ -201,10 +221,7 @@ impl OperatingPoint {
     /// Returns the same contact under the load at which the Hertzian pressure is this one \[Pa\], above 0.
     pub fn at_hertz_pressure(mut self, pressure_pa: f64) -> Self {
         let ratio = pressure_pa / self.hertz().pressure_pa;
-        self.load *= match self.kind {
-            ContactKind::Line => ratio.powi(2),
-            ContactKind::Point => ratio.powi(3),
-        };
+        self.load *= ratio.powi(self.kind.radius_power() + 1);
         self
     }
 
@@ -228,7 +245,7 @@ impl OperatingPoint {
         let (e, r) = (self.modulus_pa, self.radius_m);
         let m = match self.kind {
             ContactKind::Line => self.load / (e * r * u.sqrt()),
-            ContactKind::Point => self.load / (e * r * r * u.powf(0.75)),
+            ContactKind::Point => self.load / (e * r * r * u.powf(self.kind.speed_power())),
         };
         Moes { m, l: self.alpha_per_pa * e * u.powf(0.25) }
     }
@@ -255,10 +272,7 @@ impl OperatingPoint {
     /// a/w for a line contact, ab/w for a point contact.
     pub fn area_per_load(&self) -> f64 {
         let Hertz { half_width_m, half_length_m, .. } = self.hertz();
-        match self.kind {
-            ContactKind::Line => half_width_m / self.load,
-            ContactKind::Point => half_width_m * half_length_m / self.load,
-        }
+        if self.kind.is_line() { half_width_m / self.load } else { half_width_m * half_length_m / self.load }
     }
 
     /// Returns the piezoviscous parameter α p_H \[-\], the exponent of the viscosity rise in the contact.

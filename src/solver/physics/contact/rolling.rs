@@ -1,6 +1,6 @@
 //! Published formula for the rolling resistance.
 
-use super::{ContactKind, OperatingPoint};
+use super::OperatingPoint;
 
 impl OperatingPoint {
     /// Returns the rolling resistance ½∫h dp of each body of a line contact \[N/m\]: E′R (2U)^¾ · 1.4 √M/(1 + (1.4
@@ -10,7 +10,7 @@ impl OperatingPoint {
     /// for isothermal, fully flooded Newtonian films with Barus' viscosity. Solutions of this program agree with it
     /// within 7 % for M 10…200, L 4…10.
     pub fn rolling_resistance_fit(&self) -> Option<f64> {
-        if self.kind == ContactKind::Point {
+        if self.kind.is_point() {
             return None;
         }
         let rigid = 1.4 * self.moes().m.sqrt();
@@ -21,8 +21,7 @@ impl OperatingPoint {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
-    use crate::solver::physics::contact::{MoesRequest, si_from_moes};
+    use crate::solver::physics::contact::{ContactKind, MoesRequest, si_from_moes};
 
     #[test]
     fn resistance_grows_with_the_root_of_light_loads() {

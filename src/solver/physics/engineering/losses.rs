@@ -5,7 +5,7 @@
 //! therefore acts on body 1 with F − F_r and on body 2 with −F − F_r. With the surface speeds u₁ = u_m (1 − SRR/2) and
 //! u₂ = u_m (1 + SRR/2) the power loss is F SRR u_m + 2 F_r u_m.
 
-use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+use crate::solver::physics::contact::OperatingPoint;
 use serde::{Deserialize, Serialize};
 
 /// Dimensions of the bodies that do not enter the solution: length of a line contact, radii of the bodies.
@@ -49,10 +49,7 @@ impl Losses {
     /// Returns the losses of a contact with this traction coefficient and rolling resistance (\[N/m\] for a line
     /// contact, \[N\] for a point contact). `None` for a line contact without a length.
     pub fn of(point: &OperatingPoint, traction: f64, rolling_resistance: f64, extent: &Extent) -> Option<Self> {
-        let length = match point.kind {
-            ContactKind::Line => extent.length_m?,
-            ContactKind::Point => 1.0,
-        };
+        let length = if point.kind.is_line() { extent.length_m? } else { 1.0 };
         let load_n = point.load * length;
         let (friction_n, rolling_n) = (traction * load_n, rolling_resistance * length);
         let resisting = [rolling_n - friction_n, rolling_n + friction_n];

@@ -4,7 +4,7 @@ use super::asperity_table::AsperityTable;
 use super::flow_factors::FlowFactors;
 use super::mean_gap::mean_gap;
 use super::roughness::Roughness;
-use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+use crate::solver::physics::contact::OperatingPoint;
 
 /// Roughness at one operating point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,7 +30,7 @@ impl ScaledRoughness {
     pub fn new(roughness: Option<Roughness>, point: &OperatingPoint) -> Option<Self> {
         let roughness = roughness.filter(|roughness| roughness.sigma > 0.0)?;
         let Roughness { sigma, peklenik, shear_flow, .. } = roughness;
-        let across = point.kind == ContactKind::Point && peklenik != 1.0;
+        let across = point.kind.is_point() && peklenik != 1.0;
         Some(Self {
             roughness,
             sigma: sigma / point.film_scale_m(),

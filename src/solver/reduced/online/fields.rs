@@ -8,7 +8,6 @@ use crate::solver::discrete::nodes::{Laws, Nodes};
 use crate::solver::discrete::reynolds::generalized::{FilmTreatment, NodeState, PlaneGradient};
 use crate::solver::full::heat::{NodeArrays, Temperatures, one_sided};
 use crate::solver::full::{Mesh, Problem, Report, Scalars, Solution, Termination, scalars_of};
-use crate::solver::physics::contact::ContactKind;
 use crate::solver::reduced::ReducedSolution;
 use crate::solver::reduced::dense;
 use crate::solver::reduced::operators::{Operators, Stations, carried, cut_off};
@@ -128,7 +127,7 @@ impl Online {
             _ => nodes,
         };
         // On grids of point contacts no film is so thin that the eighth digit of a pressure matters.
-        let single = window.grid.kind() == ContactKind::Point;
+        let single = window.grid.kind().is_point();
         let mut pressure = vec![0.0; nodes];
         window.pressure.field(&solution.coefficients, single, &mut pressure[..ahead]);
         let ellipse = problem.point.ellipse();

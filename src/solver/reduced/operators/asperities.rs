@@ -15,7 +15,6 @@ use super::sampled_system::{RowState, SampledSystem};
 use super::support::{Place, Support};
 use crate::solver::discrete::reynolds::{CENTER, RowGeometry, STENCIL};
 use crate::solver::discrete::rough::{Asperities, RoughNodes};
-use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::surfaces::AsperityTable;
 use crate::solver::reduced::model::Window;
 use crate::solver::reduced::sums::row_times;
@@ -118,7 +117,7 @@ impl OnAsperities {
         if lines.len() != grid.lines() {
             return None;
         }
-        let (edge, plane) = (support.across - lines.len(), usize::from(grid.kind() == ContactKind::Point));
+        let (edge, plane) = (support.across - lines.len(), usize::from(grid.kind().is_point()));
         let at = |place: &Place| ((place.node % support.across).saturating_sub(edge), place.node / support.across);
         Some(Self {
             rough: None,

@@ -22,7 +22,6 @@ use super::part::{Centre, Flow, Kind, Moved, Part, Setting, Step};
 use super::readings::Readings;
 use super::sampled_system::SampledSystem;
 use crate::solver::discrete::grid::dot;
-use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::model::Window;
 use faer::linalg::matmul::matmul;
@@ -171,7 +170,7 @@ impl Front {
         };
         let lines: Vec<Line> = passed(window).into_iter().enumerate().map(line).collect();
         let passed: Vec<usize> = nodes.iter().map(|passed| passed.node).collect();
-        let plane = grid.kind() == ContactKind::Point;
+        let plane = grid.kind().is_point();
         let mut front = Self {
             rows: window.sampled_rows.iter().map(|&row| grid.line_and_column(grid.node(row))).collect(),
             bends: grid.kernel_columns(&support.nodes(), &passed),

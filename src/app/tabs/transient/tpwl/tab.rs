@@ -17,7 +17,6 @@ use crate::app::theme::Palette;
 use crate::engine::job::Standing;
 use crate::scene::{LinearisedTransient, ReducedTransient};
 use crate::solver::full::transient::Quantity;
-use crate::solver::physics::contact::ContactKind;
 
 use egui::{Grid, Ui};
 
@@ -236,19 +235,16 @@ fn nothing_yet(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         if ui.button("Linearise this run").on_hover_text("Adds it with its usual settings").clicked() {
             let kind = context.document.point.kind;
             study.linearised = Some(LinearisedTransient::usual(kind));
-            if kind == ContactKind::Point {
+            if kind.is_point() {
                 study.reduced.get_or_insert_with(ReducedTransient::embedded);
             }
             commands.edit(Edit::Transient(Box::new(study)), dials::NAME);
         }
     } else if !shared::is_coming(context) {
-        ui.weak(match context.document.point.kind {
-            ContactKind::Line => {
-                "Press Run transient. The full system runs first, and its trajectory is then linearised and followed."
-            }
-            ContactKind::Point => {
-                "Press Run transient. The full system runs first; then a sweep of loads and speeds is linearised."
-            }
+        ui.weak(if context.document.point.kind.is_line() {
+            "Press Run transient. The full system runs first, and its trajectory is then linearised and followed."
+        } else {
+            "Press Run transient. The full system runs first; then a sweep of loads and speeds is linearised."
         });
     }
 }

@@ -1,7 +1,6 @@
 //! Position of the boundary B in a node array, and nodes that it may reach.
 
 use crate::solver::discrete::grid::ContactGrid;
-use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::model::Window;
 
@@ -58,7 +57,7 @@ pub(in crate::solver::reduced::operators) fn each_near(window: &Window, mut tell
     let (grid, lines) = (&window.grid, window.grid.lines());
     let first = grid.line_and_column(grid.node(0)).1;
     let columns = grid.unknowns() / lines;
-    let farther = FARTHER[usize::from(grid.kind() == ContactKind::Point)];
+    let farther = FARTHER[usize::from(grid.kind().is_point())];
     for line in 0..lines {
         let fronts = || window.snapshots.iter().filter_map(|snapshot| snapshot.fronts.get(line).copied());
         let end = (fronts().max().unwrap_or(columns) + farther).saturating_sub(first).clamp(1, columns);

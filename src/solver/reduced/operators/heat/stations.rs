@@ -36,7 +36,7 @@ impl Stations {
     /// Selects the stations of a grid.
     pub fn of(grid: &ContactGrid) -> Self {
         let ((xi, y), across) = (grid.abscissae(), grid.nodes().1);
-        if grid.kind() == ContactKind::Line {
+        if grid.kind().is_line() {
             return Self { columns: along_line(grid.len()), lines: vec![0], across };
         }
         let nearest =
@@ -92,5 +92,5 @@ fn along_plane(xi: &[f64]) -> Vec<usize> {
 
 /// Returns P at X as used in the traction of thermal contacts.
 pub(crate) fn carried(kind: ContactKind, x: f64, pressure: f64) -> f64 {
-    if kind == ContactKind::Point && x > 0.0 && pressure <= LEFT { 0.0 } else { pressure }
+    if kind.is_point() && x > 0.0 && pressure <= LEFT { 0.0 } else { pressure }
 }
