@@ -281,7 +281,7 @@ mod tests {
             let ends = unit.reach.as_ref().unwrap().ends.each_ref().map(|end| (end.approach_m, end.load, end.length_m));
             for (end, load, length) in ends {
                 // Value and slope agree on both sides of an end.
-                let step = 0.01 * length;
+                let step = 0.007 * length;
                 let [before, at, after] = [-step, 0.0, step].map(|by| under(&mut unit, end + by).load);
                 assert!((at / load - 1.0).abs() < 1e-9, "{which}: {at} against {load}");
                 let (left, right) = (at - before, after - at);
@@ -354,7 +354,7 @@ mod tests {
                 let energy = (0.05 + 0.6 * random.f64()) * loads.1 * length;
                 let mass = 10f64.powf(-2.0 + 2.0 * random.f64());
                 let speed = (2.0 * energy / mass).sqrt();
-                let step = 0.01 * length / speed;
+                let step = 0.007 * length / speed;
                 let (work, energy, largest) = impact(&mut unit, &inputs, (mass, speed, low - 0.5 * length, step));
                 assert!(work.abs() <= 1e-6 * energy, "{which}: {:e} of the peak energy", work / energy);
                 assert!(largest > 0.02 * loads.1);

@@ -68,7 +68,7 @@ impl WindowEntry {
         }
         let Some(ratios) = self.radius_ratio else { return Ok(None) };
         let ContactGrid::Point(grid) = &window.grid else { return Err(damaged("shapes")) };
-        Shapes::new(grid, &window.pressure.basis().modes, ratios).map(Some).map_err(|_| damaged("shapes"))
+        Shapes::new(grid, ratios).map(Some).map_err(|_| damaged("shapes"))
     }
 }
 

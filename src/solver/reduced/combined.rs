@@ -43,6 +43,8 @@ pub struct PressureModes {
     flexed: OnceLock<Mat<f64>>,
     /// Combinations in single precision, row-major nodes × modes, for the display of fields.
     single: OnceLock<Vec<f32>>,
+    /// Grid of modes with their own basis, by which they are deformed.
+    grid: Option<ContactGrid>,
 }
 
 /// Number of nodes whose modes are converted to single precision at once.
@@ -99,6 +101,7 @@ impl Combined {
             basis,
             flexed,
             single: OnceLock::new(),
+            grid: None,
         }
     }
 
@@ -124,14 +127,14 @@ impl Combined {
 impl PressureModes {
     /// Creates modes with their own basis.
     pub fn own(basis: PodBasis, grid: &ContactGrid) -> Self {
-        let flexed = grid.flex(&basis.modes);
         Self {
             count: basis.modes.ncols(),
             singular_values: basis.singular_values.clone(),
             combined: None,
             basis: OnceLock::from(basis),
-            flexed: OnceLock::from(flexed),
+            flexed: OnceLock::new(),
             single: OnceLock::new(),
+            grid: Some(grid.clone()),
         }
     }
 
@@ -171,7 +174,15 @@ impl PressureModes {
 
     /// Returns K V in ξ over the node array.
     pub fn flexed(&self) -> &Mat<f64> {
-        self.flexed.get_or_init(|| self.whole(|shared| &shared.flexed))
+        if let Some(flexed) = self.flexed.get() {
+            return flexed;
+        }
+        // Not within `get_or_init`: a thread that waits for parallel work may take up other work that asks for the same.
+        let flexed = match &self.grid {
+            Some(grid) => grid.flex(&self.basis().modes),
+            None => self.whole(|shared| &shared.flexed),
+        };
+        self.flexed.get_or_init(|| flexed)
     }
 
     /// Computes the combinations at all nodes.

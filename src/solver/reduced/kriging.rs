@@ -72,8 +72,7 @@ impl Kriging {
             (Some(snapshot), Some(0)) => FilmUnit::of(window, &snapshot.point).number(snapshot.h_c).ln(),
             (Some(snapshot), Some(line)) => snapshot.fronts[line - 1] as f64,
         });
-        // Starts are then the same on every processor, except for rounding.
-        let solved = dense::refined(system.as_ref(), known);
+        let solved = dense::solved(system.as_ref(), known);
         let weights: Vec<f64> =
             (0..count + trends).flat_map(|i| (0..numbers).map(move |k| (i, k))).map(|at| solved[at]).collect();
         let sound = weights.iter().all(|weight| weight.is_finite());

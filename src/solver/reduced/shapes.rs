@@ -3,7 +3,8 @@
 //!
 //! The entries are smooth functions of ln κ. With six Chebyshev nodes over the range of a local model the error is
 //! about 1e-6 of the largest deformation. The online cost hardly changes, because the rows are combined once per
-//! contact. Single precision (6e-8) is sufficient and halves the memory.
+//! contact. Single precision (6e-8) is sufficient and halves the memory. The deformations of a local model take some
+//! 30 MB, so they are computed when it is first used.
 
 use super::online::ReducedError;
 use crate::host::pool::on_all_cores;
@@ -13,7 +14,7 @@ use crate::solver::physics::contact::{Ellipse, OperatingPoint};
 use faer::Mat;
 use rayon::prelude::*;
 use std::f64::consts::PI;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// Number of nodes in ln κ for radius ratios that differ at most tenfold, and for a wider range.
 const NODES: [usize; 2] = [6, 9];
@@ -27,8 +28,9 @@ pub struct Shapes {
     pub ratios: (f64, f64),
     /// Ends of the interval of ln κ.
     ends: (f64, f64),
-    /// K(κ) V over the node array, one matrix per node in ln κ.
-    pub(super) flexed: Vec<Mat<f32>>,
+    grid: Arc<PointGrid>,
+    /// K(κ) V over the node array, one matrix per node in ln κ; see [`Self::flexed`].
+    flexed: OnceLock<Vec<Mat<f32>>>,
 }
 
 /// Returns Chebyshev node `i` of the second kind in −1…1.
@@ -37,26 +39,44 @@ fn node(i: usize, count: usize) -> f64 {
 }
 
 impl Shapes {
-    /// Computes the matrices for modes on the nodes of a grid.
+    /// Creates the shapes of modes on the nodes of a grid.
     ///
     /// # Errors
     /// [`GridError`] if a kernel cannot be built, or if a ratio is not one of an ellipse.
-    pub fn new(grid: &Arc<PointGrid>, modes: &Mat<f64>, ratios: (f64, f64)) -> Result<Self, GridError> {
+    pub fn new(grid: &Arc<PointGrid>, ratios: (f64, f64)) -> Result<Self, GridError> {
         let (low, high) = ratios;
         let log_kappa = |ratio: f64| match Ellipse::of_ratio(ratio) {
             Ok(ellipse) => Ok(ellipse.kappa.ln()),
             Err(error) => Err(GridError::Refused(error.to_string())),
         };
         let ends = (log_kappa(low)?, log_kappa(high)?);
-        let count = NODES[usize::from(high > 10.0 * low)];
+        for end in [ends.0, ends.1] {
+            grid.of_ellipse(Ellipse::of_kappa(end.exp()))?;
+        }
+        Ok(Self { ratios, ends, grid: Arc::clone(grid), flexed: OnceLock::new() })
+    }
+
+    /// Returns the number of nodes in ln κ.
+    pub(super) fn count(&self) -> usize {
+        NODES[usize::from(self.ratios.1 > 10.0 * self.ratios.0)]
+    }
+
+    /// Returns K(κ) V for the modes V of the local model, one matrix per node in ln κ. The first call computes them.
+    pub(super) fn flexed(&self, modes: &Mat<f64>) -> &[Mat<f32>] {
+        if let Some(flexed) = self.flexed.get() {
+            return flexed;
+        }
+        let (ends, count) = (self.ends, self.count());
         let flexed = |i: usize| {
             let at = 0.5 * (ends.0 + ends.1) + 0.5 * (ends.1 - ends.0) * node(i, count);
-            let grid = grid.of_ellipse(Ellipse::of_kappa(at.exp()))?;
+            let grid = self.grid.of_ellipse(Ellipse::of_kappa(at.exp()))?;
             let flexed = ContactGrid::Point(grid).flex(modes);
             Ok(Mat::from_fn(flexed.nrows(), flexed.ncols(), |node, k| flexed[(node, k)] as f32))
         };
-        let flexed = on_all_cores(|| (0..count).into_par_iter().map(flexed).collect::<Result<_, GridError>>())?;
-        Ok(Self { ratios, ends, flexed })
+        // Not within `get_or_init`: a thread that waits for parallel work may take up other work that asks for the same.
+        let all = on_all_cores(|| (0..count).into_par_iter().map(flexed).collect::<Result<_, GridError>>());
+        // The kernels of both ends exist, and those between them are less extreme.
+        self.flexed.get_or_init(|| all.unwrap_or_default())
     }
 
     /// Returns the factor, at least 1, by which R_y/R of a contact lies outside that of some shapes, or outside
@@ -95,22 +115,22 @@ impl Shapes {
 
     /// Returns K(κ) V of an ellipse.
     #[cfg(test)]
-    pub(crate) fn flexed_at(&self, ellipse: &Ellipse) -> Mat<f64> {
-        let (nodes, modes) = self.flexed[0].shape();
-        let mut sum = Mat::zeros(nodes, modes);
-        for k in 0..modes {
+    pub(crate) fn flexed_at(&self, modes: &Mat<f64>, ellipse: &Ellipse) -> Mat<f64> {
+        let (nodes, count) = modes.shape();
+        let mut sum = Mat::zeros(nodes, count);
+        for k in 0..count {
             let mut unit = vec![0.0; k + 1];
             unit[k] = 1.0;
             let mut column = vec![0.0; nodes];
-            self.add_deformation(ellipse, &unit, &mut column);
+            self.add_deformation(modes, ellipse, &unit, &mut column);
             (0..nodes).for_each(|node| sum[(node, k)] = column[node]);
         }
         sum
     }
 
     /// Adds the deformation K(κ) V q by the first modes to a node array.
-    pub(super) fn add_deformation(&self, ellipse: &Ellipse, coefficients: &[f64], film: &mut [f64]) {
-        for (weight, flexed) in self.weights(ellipse).into_iter().zip(&self.flexed) {
+    pub(super) fn add_deformation(&self, modes: &Mat<f64>, ellipse: &Ellipse, coefficients: &[f64], film: &mut [f64]) {
+        for (weight, flexed) in self.weights(ellipse).into_iter().zip(self.flexed(modes)) {
             for (q, column) in coefficients.iter().zip(flexed.col_iter()) {
                 let factor = weight * q;
                 film.iter_mut().zip(column.iter()).for_each(|(film, value)| *film += factor * f64::from(*value));
@@ -120,7 +140,7 @@ impl Shapes {
 
     /// Returns the interpolation weights at an ellipse, one per matrix.
     pub(super) fn weights(&self, ellipse: &Ellipse) -> Vec<f64> {
-        let (count, at) = (self.flexed.len(), self.place(ellipse));
+        let (count, at) = (self.count(), self.place(ellipse));
         if let Some(exact) = (0..count).find(|&i| node(i, count) == at) {
             return (0..count).map(|i| f64::from(u8::from(i == exact))).collect();
         }

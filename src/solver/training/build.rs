@@ -177,7 +177,7 @@ impl<'a> WindowTraining<'a> {
                 }
             }
             let shapes = match (&grid, ratio == CIRCLES) {
-                (ContactGrid::Point(plane), false) => Some(Shapes::new(plane, &pressure.basis().modes, ratio).ok()?),
+                (ContactGrid::Point(plane), false) => Some(Shapes::new(plane, ratio).ok()?),
                 _ => None,
             };
             let rows = all_rows(&TestSpace::new(pressure.basis(), &grid));

@@ -136,7 +136,8 @@ impl Online {
         let mut film = match &window.shapes {
             Some(shapes) => {
                 let mut film = vec![0.0; pressure.len()];
-                shapes.add_deformation(&ellipse, &solution.coefficients, &mut film);
+                let modes = &window.pressure.basis().modes;
+                shapes.add_deformation(modes, &ellipse, &solution.coefficients, &mut film);
                 film
             }
             // With pressures cut off, K P differs from that of the modes.

@@ -49,8 +49,8 @@ impl Shaped {
         };
         Some(Self {
             ellipse: None,
-            weights: vec![0.0; shapes.flexed.len()],
-            flexed: shapes.flexed.iter().map(rows).collect(),
+            weights: vec![0.0; shapes.count()],
+            flexed: shapes.flexed(&window.pressure.basis().modes).iter().map(rows).collect(),
             geometry: geometry.to_vec(),
             across: places.iter().map(|place| place.across).collect(),
             gradients: state.gradients.get(support.len() * modes..).unwrap_or_default().to_vec(),
@@ -90,9 +90,9 @@ impl Shaped {
     }
 
     /// Returns the deformation by mode k at weighted nodes, for the current shape.
-    pub fn at(&self, shapes: &Shapes, nodes: &[(usize, f64)], k: usize) -> f64 {
+    fn at(&self, flexed: &[faer::Mat<f32>], nodes: &[(usize, f64)], k: usize) -> f64 {
         let of = |matrix: &faer::Mat<f32>| nodes.iter().map(|(node, w)| w * f64::from(matrix[(*node, k)])).sum::<f64>();
-        self.weights.iter().zip(&shapes.flexed).map(|(weight, matrix)| weight * of(matrix)).sum()
+        self.weights.iter().zip(flexed).map(|(weight, matrix)| weight * of(matrix)).sum()
     }
 }
 
@@ -106,7 +106,8 @@ impl Part for Shaped {
 
     fn aim(&mut self, system: &mut SampledSystem, at: Centre<'_>) {
         if let Some(shapes) = &at.window.shapes {
-            system.lift.iter_mut().enumerate().for_each(|(k, lift)| *lift = self.at(shapes, at.nodes, k));
+            let flexed = shapes.flexed(&at.window.pressure.basis().modes);
+            system.lift.iter_mut().enumerate().for_each(|(k, lift)| *lift = self.at(flexed, at.nodes, k));
         }
     }
 }
