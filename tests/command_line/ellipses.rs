@@ -39,7 +39,7 @@ fn what_is_no_ellipse_is_refused_in_one_sentence() {
     for (radius_y, words) in [
         ("-0.05", "convex together in both directions"),
         ("0", "convex together"),
-        ("NaN", "“NaN” is no number"),
+        ("NaN", "radius-y is NaN"),
         ("10", "radius ratio R_y/R_x is 1000"),
         ("1e-5", "must be a finite number between 2e-2 and 5e2"),
     ] {

@@ -195,7 +195,7 @@ fn what_heat_cannot_be_computed_for_is_refused_in_one_sentence() {
         (&["--heat", "--body2", "0,1,2"], "body 2's thermal conductivity"),
         (&["--heat", "--body2", "wood"], "silicon-nitride"),
         (&["--heat", "--oil-thermal", "2000,0.14"], "three numbers"),
-        (&["--heat", "--viscosity-temperature", "NaN"], "no number; write it like 12.5 1/K"),
+        (&["--heat", "--viscosity-temperature", "NaN"], "temperature coefficient"),
         (&["--shear", "eyring"], "needs --shear-stress"),
         (&["--shear", "carreau", "--shear-stress", "1e4"], "needs --shear-n"),
         (&["--shear-stress", "1e4"], "belongs to --shear"),

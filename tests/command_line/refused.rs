@@ -17,13 +17,9 @@ fn bad_points_are_refused_with_one_sentence() {
             assert_refused(&arguments, option.trim_start_matches('-'));
         }
         assert_refused(&["solve", "--moes-m", "40", "--moes-l", "10", "--viscosity", bad], "viscosity");
-        let (of_m, of_l) = match bad {
-            "nan" | "inf" => ("--moes-m <MOES_M>': “", "is no number"),
-            _ => ("Moes number M", "Moes number L"),
-        };
-        assert_refused(&["solve", "--moes-m", bad, "--moes-l", "10"], of_m);
+        assert_refused(&["solve", "--moes-m", bad, "--moes-l", "10"], "Moes number M");
         if bad != "0" {
-            assert_refused(&["solve", "--moes-m", "10", "--moes-l", bad], of_l);
+            assert_refused(&["solve", "--moes-m", "10", "--moes-l", bad], "Moes number L");
         }
     }
 }
@@ -33,7 +29,8 @@ fn bad_options_are_refused_with_one_sentence() {
     let moes = ["solve", "--moes-m", "40", "--moes-l", "10"];
     for (more, words) in [
         (&["--contact", "point", "--dx", "0.5"][..], "hold the contact"),
-        (&["--contact", "point", "--dy", "nan"], "“nan” is no number; write it like 0.125"),
+        (&["--contact", "point", "--dy", "nan"], "ΔY"),
+        (&["--contact", "point", "--dy", "thin"], "“thin” is no number; write it like 0.125"),
         (&["--contact", "point", "--dy", "0"], "ΔY"),
         (&["--u1", "100 rpm", "--u2", "1"], "needs the radius of the body"),
         (&["--viscosity", "1 mm"], "no unit of a viscosity"),
@@ -75,7 +72,7 @@ fn bad_options_are_refused_with_one_sentence() {
         (&["--domain=-1,2"], "domain"),
         (&["--domain=nan,2"], "domain"),
         (&["--dx", "0"], "nodes"),
-        (&["--dx", "nan"], "no number"),
+        (&["--dx", "nan"], "nodes"),
         (&["--dx", "1e-9"], "nodes"),
         (&["--grid", "graded", "--dx", "0.01"], "--dx"),
         (&["--grid", "hexagonal"], "uniform"),

@@ -137,7 +137,7 @@ def test_engineering_inputs_are_those_of_a_table_of_load_cases(program, tmp_path
     for k, given in enumerate(
         [
             dict(contact="line", radius="12 mm", speed="3 m/s", load="300 N/mm", srr="5 %", oil="ISO VG 68", temperature="60 °C"),
-            dict(contact="point", radius="10 mm", speed=2.0, load=20, srr=0, oil="ISO VG 32", temperature="40 °C"),
+            dict(contact="point", radius="10 mm", speed=2.0, load=20, srr=0, oil="ISO VG 32", temperature=40),
         ]
     ):
         result = ehl.solve(ehl.Contact.engineering(modulus="231 GPa", **given), method="reduced")

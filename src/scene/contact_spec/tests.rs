@@ -261,3 +261,23 @@ fn roughness_fields_are_read_and_set_complementarity() {
     let other = ContactSpec::read_over(&base, [(Field::Roughness, "1e-7", "")]).unwrap().request().unwrap().lubricant;
     assert_eq!(other.roughness, Some(Roughness { sigma: 1e-7, ..wanted }));
 }
+
+#[test]
+fn revolutions_and_degrees_celsius_are_converted_in_any_order() {
+    let turning = [(Field::U1, "1500 rpm"), (Field::Radius1, "6 mm"), (Field::U2, "1 m/s"), (Field::Radius2, "-20 mm")];
+    let own = stated(&turning);
+    let wanted = 1500.0 * std::f64::consts::PI / 30.0 * 6e-3;
+    assert!((own.u1.unwrap() / wanted - 1.0).abs() < 1e-12 && own.u2 == Some(1.0));
+    // The radius may be that of the scene; it is not stated by the line.
+    let line = ContactSpec::read_over(&own, [(Field::U1, "3000 rpm", ""), (Field::U2, "0.5", "")]).unwrap();
+    assert!((line.u1.unwrap() / wanted - 2.0).abs() < 1e-12 && line.radius1 == Some(6e-3));
+    let without = ContactSpec::read_over(&ContactSpec::default(), [(Field::U1, "100 rpm", "")]).unwrap_err();
+    assert!(without.in_words(Words::Columns).contains("needs the radius"), "{without:?}");
+
+    let mut warm = stated(&[(Field::Temperature, "70")]);
+    assert_eq!(warm.temperature, Some(343.15));
+    warm.set_as_typed(Field::Temperature, 40.0);
+    warm.set_as_typed(Field::InletTemperature, 313.15);
+    warm.set_as_typed(Field::Radius, 0.012);
+    assert_eq!((warm.temperature, warm.inlet_temperature, warm.radius), (Some(313.15), Some(313.15), Some(0.012)));
+}
