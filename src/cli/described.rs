@@ -2,6 +2,7 @@
 
 use crate::engine::{ContactResult, GridAccuracy};
 use crate::scene::{ContactDynamics, Subsurface, names};
+use crate::solver::full::GridCost;
 use crate::solver::full::heat::Rises;
 use crate::solver::full::response::{Dynamics, Maxwell};
 use std::fmt::Write;
@@ -141,9 +142,6 @@ pub fn result(result: &ContactResult, accuracy: Option<&GridAccuracy>, subsurfac
             }
         }
     }
-    if let Some(cost) = result.grid_cost.filter(|_| accuracy.is_none()) {
-        line("grid error of H_c", format!("about {:.2} %", 100.0 * cost.total()));
-    }
     if let Some(accuracy) = accuracy {
         let second = format!("by a second solve on {}×{} nodes", accuracy.nx, accuracy.ny);
         let off = |error: f64, limit: f64| format!("{:.2} %; {limit:.6} in the limit, {second}", 100.0 * error);
@@ -152,6 +150,8 @@ pub fn result(result: &ContactResult, accuracy: Option<&GridAccuracy>, subsurfac
         if !accuracy.resolved {
             line("", "one of both grids does not resolve the side lobes: the error of H_min may be larger".to_owned());
         }
+    } else if let Some(error) = result.grid_cost.map(GridCost::total).filter(|error| error.is_finite()) {
+        line("grid error of H_c", format!("about {:.2} %", 100.0 * error));
     }
     if let Some(stress) = subsurface {
         for (name, value, depth) in [

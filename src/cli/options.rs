@@ -72,12 +72,7 @@ impl FromArgMatches for PointOptions {
             };
             let refused =
                 |why: crate::scene::Refusal| Error::raw(ErrorKind::ValueValidation, why.in_words(Words::Flags));
-            let Some(text) = text else { continue };
-            match text.parse::<f64>() {
-                // The refusal of the contact names the accepted range.
-                Ok(number) if field.is_number() && !number.is_finite() => spec.set(field, number),
-                _ => spec.read(field, text, "").map_err(refused)?,
-            }
+            text.map_or(Ok(()), |text| spec.read_flag(field, text)).map_err(refused)?;
         }
         Ok(Self(spec))
     }

@@ -56,6 +56,19 @@ pub fn on_all_cores<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     }
 }
 
+/// Returns the value of a cell, and computes it first by parallel work if the cell is empty. `get_or_init` would block
+/// for ever: a thread that waits for parallel work takes up other work, which may ask for the same value. Several threads
+/// that ask at the same time all compute it.
+pub fn computed<T>(cell: &OnceLock<T>, compute: impl FnOnce() -> T) -> &T {
+    match cell.get() {
+        Some(value) => value,
+        None => {
+            let value = compute();
+            cell.get_or_init(|| value)
+        }
+    }
+}
+
 /// Returns the number of threads that parallel work uses here.
 pub fn threads() -> usize {
     on_all_cores(rayon::current_num_threads)

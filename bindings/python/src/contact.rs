@@ -18,10 +18,9 @@ use std::sync::Arc;
 /// its ``temperature`` in place of viscosity and alpha.
 ///
 /// ``Contact(moes_m=40, moes_l=10)``, ``Contact(radius=0.0225, speed=5.04, load=646e3, modulus=287.8e9, viscosity=4e-3,
-/// alpha=22e-9)``. Numbers are in SI units, but the temperature of
-/// an oil is in °C; texts may have a unit, as in ``radius="12 mm"``. Use ``contact="point"``
-/// for circular and elliptical contacts. The contact is checked when it is created, and is immutable. Contacts are
-/// equal if their requests are. They can be pickled and used as dictionary keys.
+/// alpha=22e-9)``. Numbers are in SI units, but the temperature of an oil is in °C; texts may have a unit, as in
+/// ``radius="12 mm"``. Use ``contact="point"`` for circular and elliptical contacts. The contact is checked when it is
+/// created, and is immutable. Contacts are equal if their requests are. They can be pickled and used as dictionary keys.
 #[pyclass(frozen, module = "ehl_explorer")]
 pub struct Contact {
     /// Stated fields.

@@ -281,7 +281,7 @@ mod tests {
             let ends = unit.reach.as_ref().unwrap().ends.each_ref().map(|end| (end.approach_m, end.load, end.length_m));
             for (end, load, length) in ends {
                 // Value and slope agree on both sides of an end.
-                let step = 0.007 * length;
+                let step = 0.01 * length;
                 let [before, at, after] = [-step, 0.0, step].map(|by| under(&mut unit, end + by).load);
                 assert!((at / load - 1.0).abs() < 1e-9, "{which}: {at} against {load}");
                 let (left, right) = (at - before, after - at);

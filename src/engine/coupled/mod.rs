@@ -204,29 +204,17 @@ impl Inputs {
 
     /// Returns the inputs with these [numbers](Self::numbers).
     pub const fn from_numbers(numbers: [f64; Self::COUNT]) -> Self {
-        let [
-            radius_m,
-            radius_ratio,
-            speed_m_per_s,
-            slide_to_roll_ratio,
-            load,
-            approach_m,
-            modulus_pa,
-            viscosity_pa_s,
-            alpha_per_pa,
-            roughness_m,
-        ] = numbers;
         Self {
-            radius_m,
-            radius_ratio,
-            speed_m_per_s,
-            slide_to_roll_ratio,
-            load,
-            approach_m,
-            modulus_pa,
-            viscosity_pa_s,
-            alpha_per_pa,
-            roughness_m,
+            radius_m: numbers[0],
+            radius_ratio: numbers[1],
+            speed_m_per_s: numbers[2],
+            slide_to_roll_ratio: numbers[3],
+            load: numbers[4],
+            approach_m: numbers[5],
+            modulus_pa: numbers[6],
+            viscosity_pa_s: numbers[7],
+            alpha_per_pa: numbers[8],
+            roughness_m: numbers[9],
         }
     }
 

@@ -290,19 +290,14 @@ impl Field {
         found.ok_or_else(|| NotVaried { word: word.to_owned() })
     }
 
-    /// Checks that a text is a valid value of the field. Numbers may have a unit. Numbers that are not finite pass: the
-    /// refusal of the contact names the accepted range.
+    /// Checks that a text is a valid value of the field, as [`ContactSpec::read_flag`].
     ///
     /// # Errors
     /// With a sentence that says what is accepted.
     pub fn check(self, text: &str) -> Result<(), ValueError> {
         // Revolutions per minute are valid; the radius that converts them is another field.
         let mut spec = ContactSpec { radius1: Some(1.0), radius2: Some(1.0), ..ContactSpec::default() };
-        match self.is_number() {
-            true if text.parse::<f64>().is_ok() => Ok(()),
-            true => Ok(spec.read_number(self, text, "")?),
-            false => spec.read_plain(self, text),
-        }
+        spec.read_typed(self, text)
     }
 
     /// Returns the key by which fields are sorted before they are read. The kind of contact, on which the unit of the

@@ -1,6 +1,7 @@
 //! Reads a contact specification from texts: flags, table cells, keywords. Numbers may have a unit.
 
 use super::fields::{ContactSpec, Field};
+use super::given::ValueError;
 use super::refusal::Refusal;
 use crate::solver::physics::engineering::{Dimension, UnitError, parse};
 
@@ -18,6 +19,27 @@ impl ContactSpec {
         }
         let refused = |why| Refusal::new(field, format!("<{}>: “{}” is not valid; {why}", facts.name, text.trim()));
         self.read_plain(field, text.trim()).map_err(refused)
+    }
+
+    /// Sets a field from the text of a flag.
+    ///
+    /// # Errors
+    /// If the text is not a valid value of the field.
+    pub fn read_flag(&mut self, field: Field, text: &str) -> Result<(), Refusal> {
+        self.read_typed(field, text).map_err(|why| Refusal::new(field, format!("<{}>: {why}", field.facts().name)))
+    }
+
+    /// Sets a field from the text of a flag. Numbers that are not finite are read: the refusal of the contact names the
+    /// accepted range.
+    pub(super) fn read_typed(&mut self, field: Field, text: &str) -> Result<(), ValueError> {
+        match text.parse::<f64>() {
+            _ if !field.is_number() => self.read_plain(field, text),
+            Ok(number) if !number.is_finite() => {
+                self.set(field, number);
+                Ok(())
+            }
+            _ => Ok(self.read_number(field, text, "")?),
+        }
     }
 
     /// Sets a number from a text. The unit of numbers without one is `unit`, or if that is empty that of

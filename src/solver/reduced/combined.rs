@@ -8,6 +8,7 @@ use super::dense;
 use super::multiples::{factor_scales, kept_factors};
 use super::pod::PodBasis;
 use super::sums::rows_times;
+use crate::host::pool::computed;
 use crate::solver::discrete::grid::ContactGrid;
 use faer::{Mat, MatRef};
 use std::sync::{Arc, OnceLock};
@@ -174,15 +175,10 @@ impl PressureModes {
 
     /// Returns K V in ξ over the node array.
     pub fn flexed(&self) -> &Mat<f64> {
-        if let Some(flexed) = self.flexed.get() {
-            return flexed;
-        }
-        // Not within `get_or_init`: a thread that waits for parallel work may take up other work that asks for the same.
-        let flexed = match &self.grid {
+        computed(&self.flexed, || match &self.grid {
             Some(grid) => grid.flex(&self.basis().modes),
             None => self.whole(|shared| &shared.flexed),
-        };
-        self.flexed.get_or_init(|| flexed)
+        })
     }
 
     /// Computes the combinations at all nodes.

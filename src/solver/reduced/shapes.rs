@@ -7,7 +7,7 @@
 //! 30 MB, so they are computed when it is first used.
 
 use super::online::ReducedError;
-use crate::host::pool::on_all_cores;
+use crate::host::pool::{computed, on_all_cores};
 use crate::solver::discrete::grid::{ContactGrid, GridError, PointGrid};
 use crate::solver::parameters::{CIRCLES, ParameterSpace};
 use crate::solver::physics::contact::{Ellipse, OperatingPoint};
@@ -42,7 +42,7 @@ impl Shapes {
     /// Creates the shapes of modes on the nodes of a grid.
     ///
     /// # Errors
-    /// [`GridError`] if a kernel cannot be built, or if a ratio is not one of an ellipse.
+    /// [`GridError`] if a ratio is not one of an ellipse.
     pub fn new(grid: &Arc<PointGrid>, ratios: (f64, f64)) -> Result<Self, GridError> {
         let (low, high) = ratios;
         let log_kappa = |ratio: f64| match Ellipse::of_ratio(ratio) {
@@ -50,9 +50,6 @@ impl Shapes {
             Err(error) => Err(GridError::Refused(error.to_string())),
         };
         let ends = (log_kappa(low)?, log_kappa(high)?);
-        for end in [ends.0, ends.1] {
-            grid.of_ellipse(Ellipse::of_kappa(end.exp()))?;
-        }
         Ok(Self { ratios, ends, grid: Arc::clone(grid), flexed: OnceLock::new() })
     }
 
@@ -63,20 +60,19 @@ impl Shapes {
 
     /// Returns K(κ) V for the modes V of the local model, one matrix per node in ln κ. The first call computes them.
     pub(super) fn flexed(&self, modes: &Mat<f64>) -> &[Mat<f32>] {
-        if let Some(flexed) = self.flexed.get() {
-            return flexed;
-        }
-        let (ends, count) = (self.ends, self.count());
-        let flexed = |i: usize| {
-            let at = 0.5 * (ends.0 + ends.1) + 0.5 * (ends.1 - ends.0) * node(i, count);
-            let grid = self.grid.of_ellipse(Ellipse::of_kappa(at.exp()))?;
-            let flexed = ContactGrid::Point(grid).flex(modes);
-            Ok(Mat::from_fn(flexed.nrows(), flexed.ncols(), |node, k| flexed[(node, k)] as f32))
-        };
-        // Not within `get_or_init`: a thread that waits for parallel work may take up other work that asks for the same.
-        let all = on_all_cores(|| (0..count).into_par_iter().map(flexed).collect::<Result<_, GridError>>());
-        // The kernels of both ends exist, and those between them are less extreme.
-        self.flexed.get_or_init(|| all.unwrap_or_default())
+        let all: &Vec<Mat<f32>> = computed(&self.flexed, || {
+            let (ends, count) = (self.ends, self.count());
+            let flexed = |i: usize| {
+                let at = 0.5 * (ends.0 + ends.1) + 0.5 * (ends.1 - ends.0) * node(i, count);
+                let grid = self.grid.of_ellipse(Ellipse::of_kappa(at.exp()))?;
+                let flexed = ContactGrid::Point(grid).flex(modes);
+                Ok(Mat::from_fn(flexed.nrows(), flexed.ncols(), |node, k| flexed[(node, k)] as f32))
+            };
+            let all = on_all_cores(|| (0..count).into_par_iter().map(flexed).collect::<Result<_, GridError>>());
+            // A kernel fails by its size only, and the grid has one of this size.
+            all.unwrap_or_default()
+        });
+        all
     }
 
     /// Returns the factor, at least 1, by which R_y/R of a contact lies outside that of some shapes, or outside
