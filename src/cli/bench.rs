@@ -3,9 +3,12 @@
 use super::failure::Failure;
 use super::output;
 use super::verdict::Verdict;
-use crate::engine::bench;
+use crate::engine::bench::{self, Bench};
+use crate::engine::speed::{self, SpeedPageError};
+use crate::scene::atomic_file;
 use clap::Args;
-use std::fmt::Write;
+use std::fmt::{Display, Write};
+use std::path::{Path, PathBuf};
 
 /// Options of `bench`.
 #[derive(Debug, Args)]
@@ -16,17 +19,42 @@ pub struct BenchArgs {
     /// Fewer points; finishes within 20 s
     #[arg(long)]
     quick: bool,
+    /// Also write the times into the tables of the page of the manual
+    #[arg(long, value_name = "SPEED.md", conflicts_with = "quick")]
+    page: Option<PathBuf>,
 }
 
 /// Runs the command.
 pub fn run(args: &BenchArgs) -> Result<Verdict, Failure> {
+    // Read before the measurement, which takes minutes.
+    let page = args.page.as_deref().map(|path| Ok::<_, Failure>((path, read(path)?))).transpose()?;
     let table = bench::run(args.quick)?;
+    print(args, &table)?;
+    if let Some((path, text)) = page {
+        let text = speed::updated(&text, &table).map_err(|why| refused(path, &why))?;
+        atomic_file::replace(path, text.as_bytes())?;
+    }
+    Ok(Verdict::Done)
+}
+
+/// Reads a page with tables of times.
+fn read(path: &Path) -> Result<String, Failure> {
+    let text = std::fs::read_to_string(path).map_err(|why| refused(path, &why))?;
+    speed::measured_on(&text).ok_or_else(|| refused(path, &SpeedPageError::NoDay))?;
+    Ok(text)
+}
+
+fn refused(path: &Path, why: &dyn Display) -> Failure {
+    Failure::Request(format!("{}: {why}", path.display()))
+}
+
+fn print(args: &BenchArgs, table: &Bench) -> Result<(), Failure> {
     if args.json {
-        output::print_json(&table)?;
+        output::print_json(table)?;
         for note in &table.notes {
             output::complain(note);
         }
-        return Ok(Verdict::Done);
+        return Ok(());
     }
     let mut text = format!("{:<22} {:>12} {:>12} {:>7} {:>9}\n", "", "median", "99 %", "runs", "ratio");
     for row in &table.rows {
@@ -51,6 +79,5 @@ pub fn run(args: &BenchArgs) -> Result<Verdict, Failure> {
     for note in &table.notes {
         let _ = writeln!(text, "{note}");
     }
-    output::print(&text)?;
-    Ok(Verdict::Done)
+    output::print(&text)
 }

@@ -26,7 +26,7 @@ pub struct CasesArgs {
     /// Solution method; full,reduced for both
     #[arg(long, value_parser = choices(Field::Method), value_delimiter = ',', default_value = "full")]
     method: Vec<String>,
-    /// Reduced model to use (default: the embedded one for the contact)
+    /// Reduced model to use: a file, or the name of an embedded one (default: the embedded one for the contact)
     #[arg(long, value_name = "FILE")]
     rom: Option<PathBuf>,
     /// Write the results as CSV (default: print them)

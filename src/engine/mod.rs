@@ -26,6 +26,7 @@ pub mod model_text;
 pub mod registry;
 pub mod results;
 mod rom;
+pub mod speed;
 mod store;
 pub mod training_file;
 pub mod validation;

@@ -145,7 +145,8 @@ impl Store {
         embedded::embedded_watched(name, observer)
     }
 
-    /// Returns the reduced model of a file, which is read again after a change of the file.
+    /// Returns the reduced model of a file, which is read again after a change of the file. If there is no such file, a
+    /// name of an embedded model is accepted in its place.
     ///
     /// # Errors
     /// If the file cannot be read.
@@ -159,6 +160,10 @@ impl Store {
         path: &Path,
         observer: &dyn Observer,
     ) -> Result<Arc<ReducedModel>, EngineError> {
+        let name = path.to_str().filter(|name| !path.exists() && embedded::bytes_of(name).is_some());
+        if let Some(name) = name {
+            return self.embedded_watched(name, observer).map_err(|reason| unreadable(path, reason));
+        }
         let read = || model_file::read_watched(path, observer);
         made_once(&self.0.models, Origin::of_file(path), read).map_err(|reason| unreadable(path, reason))
     }

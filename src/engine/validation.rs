@@ -1,6 +1,14 @@
 //! Validation page of the manual, generated from the results page of all scenes.
 
 use super::results::{PAGE, Written, written};
+use super::speed;
+
+/// Places of the plots in the page, as references to pictures.
+pub const MARGINS_PLOT: &str = "plots/margins";
+/// Plot of the times of the speed table.
+pub const SPEED_PLOT: &str = "plots/speed";
+/// A deviation is plotted if the digits of its value resolve this share of the limit.
+const RESOLVED: f64 = 0.05;
 
 /// Folders of scenes with what they validate.
 const FOLDERS: [(&str, &str); 17] = [
@@ -52,6 +60,11 @@ impl<'a> Scene<'a> {
         !self.day.is_empty()
     }
 
+    /// Returns the shares of their limits that the values use, for the expectations that have one.
+    fn shares(&self) -> impl Iterator<Item = f64> {
+        self.checks.iter().filter_map(|(wanted, value, _)| share(wanted, value))
+    }
+
     fn held(&self) -> usize {
         self.checks.iter().filter(|(_, _, holds)| *holds).count()
     }
@@ -69,8 +82,39 @@ impl<'a> Scene<'a> {
     }
 }
 
-/// Returns the page: a table of all folders, expectations that do not hold, and the scenes of each folder.
-pub fn page(results: &str) -> String {
+/// Returns the share of the limit that a value uses: the value over the largest accepted one, or the deviation from the
+/// expected value over the largest accepted deviation. `None` if there is no such limit, or the page has too few digits.
+fn share(wanted: &str, value: &str) -> Option<f64> {
+    let value: f64 = value.parse().ok()?;
+    let condition = wanted.split_once("`: ").or_else(|| wanted.split_once("): "))?.1.split(';').next()?;
+    if let Some(most) = condition.strip_prefix("at most ") {
+        let most: f64 = most.parse().ok()?;
+        return (most > 0.0 && value > 0.0).then_some(value / most);
+    }
+    let (expected, tolerance) = match condition.split_once(" ± ") {
+        Some((expected, tolerance)) => (expected.parse::<f64>().ok()?, tolerance.parse::<f64>().ok()?),
+        None => {
+            let (expected, relative) = condition.split_once(", relative error at most ")?;
+            let expected: f64 = expected.parse().ok()?;
+            (expected, relative.parse::<f64>().ok()? * expected.abs())
+        }
+    };
+    let deviation = (value - expected).abs();
+    // Values have four digits.
+    let rounding = 0.5e-3 * value.abs();
+    (tolerance > 0.0 && deviation > rounding && rounding <= RESOLVED * tolerance).then_some(deviation / tolerance)
+}
+
+/// Returns the folders of a results page with the shares of their limits that the values use.
+pub fn margins(results: &str) -> Vec<(&'static str, Vec<f64>)> {
+    let scenes = Scene::all(results);
+    let of = |folder: &str| scenes.iter().filter(|scene| scene.folder() == folder).flat_map(Scene::shares).collect();
+    let folders = FOLDERS.iter().map(|(folder, _)| (*folder, of(folder)));
+    folders.filter(|(_, shares): &(_, Vec<f64>)| !shares.is_empty()).collect()
+}
+
+/// Returns the page: a table of all folders, plots, expectations that do not hold, and the scenes of each folder.
+pub fn page(results: &str, speed_page: &str) -> String {
     let scenes = Scene::all(results);
     let held = |own: &[&Scene<'_>]| own.iter().map(|scene| scene.held()).sum::<usize>();
     let checks = |own: &[&Scene<'_>]| own.iter().map(|scene| scene.checks.len()).sum::<usize>();
@@ -94,6 +138,12 @@ pub fn page(results: &str) -> String {
         let missing = own.iter().filter(|scene| !scene.ran()).count();
         text += &format!("| `{folder}` | {} | {missing} | {} | {} |\n", own.len(), checks(own), held(own));
     }
+    text += &format!(
+        "\n![Deviations over their limits. Each point is one expectation; 1 is the limit.]({MARGINS_PLOT})\n\n## Speed\n\n\
+         {} [Speed](speed.md) has the table.\n\n\
+         ![Median times of the rows of the speed table.]({SPEED_PLOT})\n",
+        speed::measured_on(speed_page).unwrap_or_default()
+    );
     text += "\n## What does not hold\n\n";
     let mut short = false;
     for scene in &scenes {
@@ -117,10 +167,30 @@ mod tests {
     use super::*;
 
     const RESULTS: &str = include_str!("../../scenes/RESULTS.md");
+    const SPEED: &str = include_str!("../../assets/manual/speed.md");
+
+    #[test]
+    fn shares_of_limits_agree_with_the_verdicts() {
+        let shares = |scene: &Scene<'_>| -> Vec<(f64, bool)> {
+            let of = |(wanted, value, holds): &(&str, &str, bool)| Some((share(wanted, value)?, *holds));
+            scene.checks.iter().filter_map(of).collect()
+        };
+        let all: Vec<(f64, bool)> = Scene::all(RESULTS).iter().flat_map(shares).collect();
+        assert!(all.len() > 300, "{}", all.len());
+        // The digits of the page are few where a value is close to its limit.
+        assert!(all.iter().all(|(share, holds)| (*share <= 1.0 + 1e-3) == *holds || (share - 1.0).abs() < 1e-3));
+        assert_eq!(share("`a`: at most 0.01; reason", "0.005"), Some(0.5));
+        let relative = share("`a` (full): 2, relative error at most 1e-1; reason", "2.100").unwrap();
+        assert!((relative - 0.5).abs() < 1e-9);
+        let digits = "`a`: 2, relative error at most 1e-5";
+        assert_eq!(share(digits, "2.000"), None, "four digits do not show this deviation");
+        assert_eq!(share("`a`: 0; every contact is solved", "0"), None);
+        assert_eq!(margins(RESULTS).iter().map(|(_, shares)| shares.len()).sum::<usize>(), all.len());
+    }
 
     #[test]
     fn every_scene_of_the_results_has_an_entry() {
-        let (scenes, page) = (Scene::all(RESULTS), page(RESULTS));
+        let (scenes, page) = (Scene::all(RESULTS), page(RESULTS, SPEED));
         assert!(scenes.len() > 150 && scenes.len() == RESULTS.lines().filter(|line| line.starts_with("| [")).count());
         for scene in &scenes {
             assert!(page.contains(&scene.entry()), "{} is in no folder of the page", scene.place);
@@ -142,7 +212,7 @@ mod tests {
         let results = "| [A \\| b](line/a.ron) | Moes. | `H_c`: 1 | 2.000 | **short** | 2026-11-29 <!-- 1 --> |\n\
                        |  |  | `P_c`: 1 | 1.000 | ok |  |\n\
                        | [B](point/b.ron) |  | it runs | not yet |  |  |\n";
-        let page = page(results);
+        let page = page(results, SPEED);
         for said in [
             "1 of 2 expectations hold",
             "- **A \\| b**: `H_c`: 1. Value: 2.000. `line/a.ron`",

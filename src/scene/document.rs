@@ -6,6 +6,7 @@ use super::expectation::Expectation;
 use super::experiment::Experiment;
 use super::grid::Grid;
 use super::method::Method;
+use super::ron_message::message;
 use super::study::{Study, point};
 use super::view::View;
 use super::written::is_default;
@@ -223,7 +224,7 @@ impl Scene {
         let scene = parsed.map_err(|error| SceneError::Syntax {
             line: error.span.start.line,
             column: error.span.start.col,
-            message: error.code.to_string().replace('\n', " "),
+            message: message(&error.code),
         })?;
         scene.check()?;
         Ok(scene)

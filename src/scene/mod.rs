@@ -44,6 +44,7 @@ mod random_points;
 pub mod regime;
 pub mod regimes;
 mod report;
+pub(crate) mod ron_message;
 mod run;
 pub mod sampled;
 mod scene_check;

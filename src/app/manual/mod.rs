@@ -1,6 +1,7 @@
 //! Manual: a window with the pages of `assets/manual`.
 
 mod pictures;
+mod plots;
 
 use self::pictures::Pictures;
 use crate::engine::results::PAGE;
@@ -30,13 +31,16 @@ macro_rules! pages {
     };
 }
 
+/// Page with the speed table.
+const SPEED: &str = include_str!("../../../assets/manual/speed.md");
+
 /// Page that is generated from the results of the scenes.
 const VALIDATION: Page = Page {
     file: "validation.md",
     text: || {
         static TEXT: LazyLock<String> = LazyLock::new(|| {
             let results = examples::text_of(&Path::new(examples::ROOT).join(PAGE));
-            validation::page(results.unwrap_or_default())
+            validation::page(results.unwrap_or_default(), SPEED)
         });
         &TEXT
     },

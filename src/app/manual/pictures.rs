@@ -1,5 +1,6 @@
 //! Pictures of the manual: PNG files next to its pages.
 
+use super::plots;
 use egui::{ColorImage, Context, Image, RichText, TextureHandle, TextureOptions, Ui};
 use std::collections::HashMap;
 
@@ -9,6 +10,9 @@ macro_rules! pictures {
         &[$(($file, include_bytes!(concat!("../../../assets/manual/pictures/", $file)))),*]
     };
 }
+
+/// Folder of the pictures.
+const FOLDER: &str = "pictures/";
 
 /// File names and contents. A web page leaves them out, because they would delay its first picture.
 #[cfg(feature = "desktop")]
@@ -27,19 +31,19 @@ const PICTURES: &[(&str, &[u8])] = pictures![
 #[cfg(not(feature = "desktop"))]
 const PICTURES: &[(&str, &[u8])] = &[];
 
-/// Reference to a picture in a page, `![caption](pictures/file)`.
+/// Reference to a picture or a plot in a page, `![caption](pictures/file)` or `![caption](plots/name)`.
 pub(super) struct Reference<'a> {
     caption: &'a str,
-    file: &'a str,
+    place: &'a str,
     /// Text after the reference.
     pub rest: &'a str,
 }
 
 /// Reads a reference whose first two characters were removed. `None` if the text is none.
 pub(super) fn reference(text: &str) -> Option<Reference<'_>> {
-    let (caption, after) = text.split_once("](pictures/")?;
-    let (file, rest) = after.split_once(')')?;
-    Some(Reference { caption, file, rest })
+    let (caption, after) = text.split_once("](")?;
+    let (place, rest) = after.split_once(')')?;
+    (place.starts_with(FOLDER) || place.starts_with(plots::FOLDER)).then_some(Reference { caption, place, rest })
 }
 
 /// Textures of the pictures that were shown. `None` for files that cannot be read.
@@ -50,13 +54,15 @@ impl Pictures {
     /// Draws a picture with its caption.
     pub(super) fn ui(&mut self, ui: &mut Ui, reference: &Reference<'_>) {
         ui.add_space(6.0);
-        if let Some((file, content)) = PICTURES.iter().find(|(file, _)| *file == reference.file) {
+        let place = reference.place.strip_prefix(FOLDER);
+        if let Some((file, content)) = PICTURES.iter().find(|(file, _)| Some(*file) == place) {
             let texture = self.0.entry(file).or_insert_with(|| load(ui.ctx(), file, content));
             if let Some(texture) = texture {
                 let image = Image::new(&*texture).max_width(ui.available_width()).shrink_to_fit().corner_radius(3.0);
                 ui.add(image.alt_text(reference.caption));
             }
         }
+        plots::ui(ui, reference.place);
         ui.label(RichText::new(reference.caption).small().weak());
         ui.add_space(6.0);
     }
@@ -91,9 +97,11 @@ mod tests {
     #[test]
     fn every_reference_has_a_picture_and_every_picture_a_reference() {
         let mut files: Vec<&str> =
-            texts().flat_map(|text| text.split("\n![").skip(1)).map(|part| reference(part).unwrap().file).collect();
+            texts().flat_map(|text| text.split("\n![").skip(1)).map(|part| reference(part).unwrap().place).collect();
+        let plots = files.extract_if(.., |place| place.starts_with(plots::FOLDER)).count();
+        assert_eq!(plots, 2);
         files.sort_unstable();
-        let known: Vec<&str> = PICTURES.iter().map(|(file, _)| *file).collect();
+        let known: Vec<String> = PICTURES.iter().map(|(file, _)| format!("{FOLDER}{file}")).collect();
         assert_eq!(files, known);
     }
 
@@ -109,7 +117,7 @@ mod tests {
     #[test]
     fn a_reference_is_split_from_the_text_after_it() {
         let reference = reference("A roller](pictures/a.png)\n\nText").unwrap();
-        assert_eq!((reference.caption, reference.file, reference.rest), ("A roller", "a.png", "\n\nText"));
+        assert_eq!((reference.caption, reference.place, reference.rest), ("A roller", "pictures/a.png", "\n\nText"));
         assert!(super::reference("no picture").is_none());
     }
 }

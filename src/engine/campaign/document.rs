@@ -2,6 +2,7 @@
 
 use super::error::CampaignError;
 use super::program::read;
+use crate::scene::ron_message::message;
 use crate::scene::{Scene, Study};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -74,7 +75,7 @@ impl Campaign {
         let text = String::from_utf8(read(path)?).map_err(|_| refused("it is not UTF-8 text".to_owned()))?;
         let campaign: Self = ron::from_str(&text).map_err(|error| {
             let at = error.span.start;
-            refused(format!("line {}, column {}: {}", at.line, at.col, error.code))
+            refused(format!("line {}, column {}: {}", at.line, at.col, message(&error.code)))
         })?;
         if campaign.version != VERSION {
             return Err(refused(format!("its version is {}, this program reads {VERSION}", campaign.version)));

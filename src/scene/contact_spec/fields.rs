@@ -115,8 +115,8 @@ macro_rules! contact_fields {
 contact_fields! {
     contact: ContactKind, Contact, "contact", "Shape of the contact", { default: Some("line"), titles: &["kind"] };
     method: MethodName, Method, "method", "Solution method", { default: Some("full"), absent: &[Words::Columns] };
-    rom: PathBuf, Rom, "rom", "Reduced model to use",
-        { note: " (default: the embedded one)", placeholder: Some("FILE"), absent: &[Words::Columns] };
+    rom: PathBuf, Rom, "rom", "Reduced model to use: a file, or the name of an embedded one",
+        { note: " (default: the embedded one for the contact)", placeholder: Some("FILE"), absent: &[Words::Columns] };
     machine: Machine, Machine, "machine",
         "Rolling bearing, gear pair or cam in the notation of scenes, which determines radii, speeds and load",
         { note: ", as Gear(teeth: (16, 24), module_m: 0.0045, …)", placeholder: Some("MACHINE") };
