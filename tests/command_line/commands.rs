@@ -441,3 +441,15 @@ fn sliding_shear_thinning_contacts_show_film_shear() {
     assert_eq!(table.lines().next().unwrap(), "X,Z,tau_zx_pa,rate_per_s");
     assert_eq!(table.lines().count(), 1 + 601 * 11);
 }
+
+#[test]
+fn models_are_named_in_place_of_their_files() {
+    let solve = |model: &[&str]| {
+        program(&[&["solve", "--moes-m", "40", "--moes-l", "10", "--method", "reduced", "--json"], model].concat())
+    };
+    let (named, usual) = (json(&solve(&["--rom", "line"])), json(&solve(&[])));
+    assert_eq!(named["H_c"], usual["H_c"]);
+    let unknown = solve(&["--rom", "no_such_model"]);
+    assert_eq!(unknown.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&unknown.stderr).contains("no_such_model"));
+}

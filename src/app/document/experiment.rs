@@ -179,7 +179,7 @@ impl Document {
                 let sliding = Sliding { newtonian_plateau_ratio: None, ..self.point.sliding };
                 self.accept(OperatingPoint { sliding, ..self.point })
             }
-            Quantity::RadiusRatio if self.holds(Quantity::RadiusY) => {
+            quantity if quantity.is_relative_to_radius() && self.holds(Quantity::RadiusY) => {
                 Err(Refusal::new("R_y is held, so R_y/R cannot change; release R_y with its lock"))
             }
             _ => self.accept(quantity.at(&self.point, value)),

@@ -14,8 +14,8 @@ use std::sync::LazyLock;
 
 /// First words of a reference to a plot.
 pub(super) const FOLDER: &str = "plots/";
-/// Height of a row, and of the horizontal axis \[points\].
-const ROW: f32 = 19.0;
+/// Height of a row, and of the horizontal axis \[points\]. Names of lower rows are faint or not drawn at all.
+const ROW: f32 = 28.0;
 const AXIS: f32 = 46.0;
 /// Width of the names of the rows \[points\].
 const NAMES: f32 = 220.0;
@@ -63,6 +63,8 @@ fn draw(ui: &mut Ui, plotted: &'static Rows) {
         .allow_drag(false)
         .allow_zoom(false)
         .allow_boxed_zoom(false)
+        .show_x(false)
+        .show_y(false)
         .y_axis_min_width(NAMES)
         .include_y(0.6)
         .include_y(0.4 - rows.len() as f64)

@@ -11,6 +11,6 @@ pub enum Words {
     Columns,
     /// Fields of a scene: `radius_y`, between backticks.
     Scene,
-    /// Variables of a Functional Mock-up Unit: `radius_ratio`, between backticks.
+    /// Variables of a Functional Mock-up Unit: `inlet_temperature`, between backticks.
     Variables,
 }

@@ -165,7 +165,7 @@ pub(super) fn contacts_of(experiment: &Experiment, over: &[Axis]) -> Result<Vec<
         let point = stated.operating_point(&experiment.lubricant);
         let mut point = point.map_err(|refusal| RefusedContact::of(&refusal.in_words(Words::Scene)));
         // The radius ratio is applied last, because the radius may follow from M and L.
-        for (axis, &value) in over.iter().zip(&values).filter(|(axis, _)| axis.vary == Quantity::RadiusRatio) {
+        for (axis, &value) in over.iter().zip(&values).filter(|(axis, _)| axis.vary.is_relative_to_radius()) {
             point = point.and_then(|point| {
                 let point = axis.vary.at(&point, value);
                 point.check().map(|()| point).map_err(|why| RefusedContact::of(&why))

@@ -326,6 +326,27 @@ impl Quantity {
         })
     }
 
+    /// Returns true if it is a ratio to R, which must be set before it.
+    pub fn is_relative_to_radius(self) -> bool {
+        self == Self::RadiusRatio
+    }
+
+    /// Returns true if the dimensionless pressure and film depend on it apart from the constants of the lubricant, so
+    /// that a basis for other values may not represent them.
+    pub fn changes_shapes(self) -> bool {
+        matches!(
+            self,
+            Self::M
+                | Self::L
+                | Self::HertzPressure
+                | Self::RadiusRatio
+                | Self::FilmThickness
+                | Self::GradientStress
+                | Self::SmoothFilmRatio
+                | Self::RoughnessNumber
+        )
+    }
+
     /// Returns the same contact with another value of it. M changes by the load, L by α. A change of speed, radius,
     /// modulus or viscosity also changes M and L. The film ratio changes by R, and speed and load follow so that M and L
     /// are the same. For dependent quantities the contact is returned unchanged.

@@ -168,13 +168,7 @@ impl Domain {
     /// thickness or the radius ratio is outside. If they are inside, the bases apply to other lubricants as well, and
     /// the reduced equations are exact.
     pub fn strange_shape(&self, problem: &Problem) -> Option<Outside> {
-        let shapes = |quantity: Quantity| {
-            use Quantity::{FilmThickness, GradientStress, HertzPressure, L, M, RadiusRatio};
-            use Quantity::{RoughnessNumber, SmoothFilmRatio};
-            matches!(quantity, M | L | HertzPressure | RadiusRatio | FilmThickness | GradientStress)
-                || matches!(quantity, SmoothFilmRatio | RoughnessNumber)
-        };
-        self.other_shape(&problem.point).or_else(|| self.outside(problem, shapes))
+        self.other_shape(&problem.point).or_else(|| self.outside(problem, Quantity::changes_shapes))
     }
 
     /// Returns true if the domain is of this lubricant. The limiting stress and the cavitation model are not compared.

@@ -111,7 +111,7 @@ impl Within {
         let wanted = |point: &OperatingPoint| {
             let moes = point.moes();
             let served = self.cell.as_ref().is_none_or(|cell| cell.holds(moes, BEYOND_CELLS));
-            inside(moes.m, self.m) && inside(point.radius_ratio(), self.ratios) && served
+            inside(moes.m, self.m) && point.has_ratio_in(self.ratios) && served
         };
         self.range.at(self.kind, &unit).filter(wanted)
     }

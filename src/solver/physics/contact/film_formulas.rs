@@ -115,17 +115,14 @@ impl FilmFormula {
     /// The constants of Chittenden and others are quoted from later literature, not from the original paper. Central
     /// film thicknesses of full solutions for R_y/R 0.2…20 lie within 20 % of them.
     pub fn relative_film(self, point: &OperatingPoint) -> f64 {
-        let radius_ratio = point.radius_ratio();
         let (u, g) = (point.speed_group() / 2.0, point.alpha_per_pa * point.modulus_pa);
         let w = point.load / (point.modulus_pa * point.radius_m.powi(point.kind.radius_power()));
         let power = |u_power: f64, g_power: f64, w_power: f64| u.powf(u_power) * g.powf(g_power) * w.powf(w_power);
-        let leakage = radius_ratio.powf(2.0 / 3.0);
-        let k = ellipticity(radius_ratio);
+        let leakage = (2.0 / 3.0 * point.log_ratio()).exp();
+        let k = ellipticity(point);
         match self {
             Self::MoesLine => FilmShape::Line.film(point.moes()) * point.speed_group().sqrt(),
-            Self::NijenbanningVennerMoes => {
-                FilmShape::Ellipse(radius_ratio).film(point.moes()) * point.speed_group().sqrt()
-            }
+            Self::NijenbanningVennerMoes => FilmShape::of(point).film(point.moes()) * point.speed_group().sqrt(),
             Self::DowsonHigginson => 2.65 * power(0.7, 0.54, -0.13),
             Self::DowsonToyoda => 3.06 * power(0.69, 0.56, -0.10),
             Self::HamrockDowsonCentral => 2.69 * power(0.67, 0.53, -0.067) * (1.0 - 0.61 * (-0.73 * k).exp()),
@@ -135,11 +132,11 @@ impl FilmFormula {
         }
     }
 
-    /// True if the formula covers elliptical contacts of these radii.
-    fn holds_for(self, radius_ratio: f64) -> bool {
+    /// Returns true if the formula covers elliptical contacts of the same shape.
+    fn covers_shape_of(self, point: &OperatingPoint) -> bool {
         match self {
-            Self::HamrockDowsonCentral | Self::HamrockDowsonMinimum => (1.0..=8.0).contains(&ellipticity(radius_ratio)),
-            Self::NijenbanningVennerMoes => radius_ratio >= 1.0,
+            Self::HamrockDowsonCentral | Self::HamrockDowsonMinimum => (1.0..=8.0).contains(&ellipticity(point)),
+            Self::NijenbanningVennerMoes => !point.is_narrow(),
             _ => true,
         }
     }
@@ -153,14 +150,14 @@ impl FilmFormula {
             Self::NijenbanningVennerMoes => true,
             _ => moes.m >= 10.0 && moes.l >= 5.0,
         };
-        let in_range = regime && self.holds_for(point.radius_ratio());
+        let in_range = regime && self.covers_shape_of(point);
         FilmPrediction { film_m: self.relative_film(point) * point.radius_m, in_range }
     }
 }
 
-/// Returns Hamrock and Dowson's ellipticity parameter k of the radii R_y/R; 1.03 for a circular contact.
-fn ellipticity(radius_ratio: f64) -> f64 {
-    1.03 * radius_ratio.powf(0.64)
+/// Returns Hamrock and Dowson's ellipticity parameter k = 1.03 (R_y/R)^0.64; 1.03 for a circular contact.
+fn ellipticity(point: &OperatingPoint) -> f64 {
+    1.03 * (0.64 * point.log_ratio()).exp()
 }
 
 #[cfg(test)]
@@ -249,7 +246,9 @@ mod tests {
             (NijenbanningVennerMoes, 0.5, false),
             (ChittendenCentral, 0.5, true),
         ] {
-            assert_eq!(formula.holds_for(ratio), holds, "{formula:?} {ratio}");
+            let circle = si_from_moes(&MoesRequest::new(ContactKind::Point, 100.0, 8.0)).unwrap();
+            let point = OperatingPoint { radius_y_m: Some(ratio * circle.radius_m), ..circle };
+            assert_eq!(formula.covers_shape_of(&point), holds, "{formula:?} {ratio}");
         }
     }
 }

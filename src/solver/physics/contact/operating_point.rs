@@ -114,6 +114,11 @@ impl OperatingPoint {
         self.radius_y_m.map_or(1.0, |radius_y| radius_y / self.radius_m)
     }
 
+    /// Returns true if R_y/R_x is in a closed interval.
+    pub fn has_ratio_in(&self, (low, high): (f64, f64)) -> bool {
+        (low..=high).contains(&self.radius_ratio())
+    }
+
     /// Returns R_y/R_x of a contact with a stated radius across; `None` without one.
     pub fn stated_ratio(&self) -> Option<f64> {
         self.radius_y_m.map(|_| self.radius_ratio())
