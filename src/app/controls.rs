@@ -1,4 +1,5 @@
-//! Widgets shared by the panels: number entry with its message, slider with a marked range, accessible names.
+//! Widgets shared by the panels: number fields with error messages, sliders with a marked range, choice boxes. Further
+//! functions set the texts for screen readers and draw a ring around a control.
 
 use super::numbers;
 use super::theme::Palette;
@@ -29,7 +30,7 @@ impl Entries {
         self.messages.clear();
     }
 
-    /// Stores why an entry was refused, or removes the message if it was accepted.
+    /// Stores why an entry was refused. Removes text and message if it was accepted.
     pub fn answer(&mut self, name: &'static str, result: Result<(), Refusal>) {
         match result {
             Ok(()) => {
@@ -55,8 +56,8 @@ impl Entries {
         }
     }
 
-    /// Shows one message about a group of fields: the last one if there are several. Reserves two lines, so that
-    /// nothing below moves.
+    /// Shows one message about a group of fields: the last refusal if it belongs to the group, else the first message.
+    /// Reserves two lines, so that nothing below moves.
     pub fn reserved_ui<'a>(&self, ui: &mut Ui, names: impl IntoIterator<Item = &'a str>) {
         let names: Vec<&str> = names.into_iter().collect();
         let last = self.last.filter(|last| names.contains(last)).and_then(|last| self.message(last));
@@ -64,8 +65,8 @@ impl Entries {
     }
 }
 
-/// Draws an error message, if there is one, in two reserved lines, so that nothing below moves. The full message is shown
-/// on hover if it does not fit.
+/// Draws an error message, if there is one, in two reserved lines, so that nothing below moves. If the message does not
+/// fit, it is shown in full on hover.
 pub fn reserved_message(ui: &mut Ui, message: Option<&str>) {
     reserved(ui, 2, |ui| {
         let Some(message) = message else { return };
@@ -87,7 +88,8 @@ pub fn reserved(ui: &mut Ui, lines: u8, content: impl FnOnce(&mut Ui)) {
     });
 }
 
-/// Draws one of two alternative buttons, as wide as the wider one, so that neighbouring widgets do not move.
+/// Draws one of two alternative buttons: the second one if `second`. Both have the width of the wider one, so that
+/// neighbouring widgets do not move.
 pub fn either_button(ui: &mut Ui, names: [&str; 2], second: bool) -> Response {
     let font = TextStyle::Button.resolve(ui.style());
     let text = |name: &str| ui.painter().layout_no_wrap(name.to_owned(), font.clone(), Color32::PLACEHOLDER).size().x;
@@ -108,25 +110,25 @@ pub fn warning_ui(ui: &mut Ui, message: &str) {
     ui.label(RichText::new(sentence(message)).small().color(color));
 }
 
-/// Draws stage, progress and remaining time of a job. Uses a separate row, or a short form at the end of a
-/// horizontal row. `name` is the accessible name of the bar.
+/// Draws stage, progress and remaining time of a job. In a horizontal layout the bar is shorter and the stage is a
+/// tooltip. `name` is the accessible name of the bar.
 pub fn standing_ui(ui: &mut Ui, standing: Option<Standing>, name: &str) {
     let Some(standing) = standing else { return };
-    let (stage, briefly) = (sentence(&standing.stage), ui.layout().is_horizontal());
+    let (stage, short) = (sentence(&standing.stage), ui.layout().is_horizontal());
     let content = |ui: &mut Ui| {
-        if !briefly {
+        if !short {
             ui.label(&stage);
         }
         let fraction = if standing.total > 0 { standing.done as f32 / standing.total as f32 } else { 0.0 };
-        let bar = ProgressBar::new(fraction).desired_width(if briefly { 90.0 } else { 120.0 }).desired_height(8.0);
+        let bar = ProgressBar::new(fraction).desired_width(if short { 90.0 } else { 120.0 }).desired_height(8.0);
         let bar = ui.add(bar);
         named(ui, bar, name);
         ui.weak(numbers::standing(&standing)).on_hover_text(&stage);
     };
-    if briefly { content(ui) } else { ui.horizontal(content).inner }
+    if short { content(ui) } else { ui.horizontal(content).inner }
 }
 
-/// Draws a small lock, closed or open, at the left of its space.
+/// Draws a small lock, closed or open, at the left of an area of the size `room`. The whole area can be clicked.
 pub fn lock_ui(ui: &mut Ui, room: [f32; 2], closed: bool) -> Response {
     let (slot, response) = ui.allocate_exact_size(room.into(), Sense::click());
     let rect = Rect::from_center_size(slot.left_center() + vec2(9.0, 0.0), vec2(14.0, 14.0));
@@ -146,7 +148,8 @@ pub fn why(ui: &mut Ui, text: &str) {
     frame.show(ui, |ui| ui.label(text));
 }
 
-/// Returns the text with a capital first letter (unless it is a symbol) and a full stop at the end.
+/// Returns the text with a capital first letter and a full stop at the end. The first letter stays small if no letter
+/// follows it, as in a symbol.
 pub fn sentence(text: &str) -> String {
     let text = text.trim();
     let mut chars = text.chars();
@@ -162,7 +165,7 @@ pub fn sentence(text: &str) -> String {
     out
 }
 
-/// Sets the accessible name of a widget, which screen readers and tests use.
+/// Sets the accessible name of a widget, which screen readers and tests use. Draws its ring, see [`ringed`].
 pub fn named(ui: &Ui, response: Response, name: &str) -> Response {
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_label(name));
     ringed(ui, response, name)
@@ -181,6 +184,8 @@ pub fn ringed(ui: &Ui, response: Response, name: &str) -> Response {
     response
 }
 
+/// Returns the key of two stored values: the name of the ringed control (`String`) and the request to scroll to it
+/// (`bool`).
 fn pointed_at() -> Id {
     Id::unique("pointed at")
 }
@@ -208,10 +213,11 @@ pub fn described(ui: &Ui, response: Response, description: &str) -> Response {
     response
 }
 
-/// Width of choice boxes, so that they line up.
+/// Common width of choice boxes \[points\].
 const CHOICE_WIDTH: f32 = 164.0;
 
-/// Draws a row with a name and a choice box. Every option has a name and a tooltip.
+/// Draws a row with a name and a choice box. `describe` returns the name and the tooltip of an option; the tooltip may
+/// be empty.
 pub fn choice<'a, T: Copy + PartialEq>(
     ui: &mut Ui,
     name: impl Into<WidgetText>,
@@ -247,8 +253,9 @@ pub fn choice<'a, T: Copy + PartialEq>(
     ui.end_row();
 }
 
-/// Draws a number field that parses its text with `read`. NaN is shown as “none”. Returns the number when it was entered and is valid.
-/// Arrow keys change it by 1 %, with Shift by 10 %.
+/// Draws a number field that parses its text with `read`. Returns the number when the user has changed it, and stores
+/// the message if `read` refuses the text. NaN is shown as “none”. Arrow keys change the number by 1 %, with Shift by
+/// 10 %.
 pub fn typed_field(
     ui: &mut Ui,
     entries: &mut Entries,
@@ -321,14 +328,14 @@ pub struct RangeSlider<'a> {
     pub marked: Option<(f64, f64)>,
     /// Value set by a double click.
     pub home: f64,
-    /// Description of the quantity.
+    /// Description of the quantity for screen readers.
     pub tooltip: &'a str,
     /// True for a logarithmic scale.
     pub logarithmic: bool,
 }
 
 impl RangeSlider<'_> {
-    /// Draws the slider. Returns the new value when it was moved.
+    /// Draws the slider. Returns the new value after a move or a double click.
     pub fn show(&self, ui: &mut Ui, value: f64, width: f32) -> Option<f64> {
         let mut moved = value;
         ui.spacing_mut().slider_width = width;
@@ -369,7 +376,7 @@ pub fn heading(ui: &mut Ui, text: &str) {
     ringed(ui, label, text);
 }
 
-/// Width of the column of names, so that values line up across groups.
+/// Width of the column of names \[points\], so that values line up across groups.
 pub const NAME_WIDTH: f32 = 110.0;
 
 /// Draws a formatted label with a tooltip.

@@ -1,15 +1,15 @@
-//! All colours, strokes and text styles of the explorer. A quantity has the same hue everywhere (Okabe–Ito).
+//! All colours, line widths and text styles of the explorer. A quantity has the same hue everywhere (Okabe–Ito).
 //! Reduced solutions are thick lines, full solutions thin lines of the same hue, and pinned curves fade.
 
 use egui::ecolor::{Hsva, Rgba};
 use egui::text::{LayoutJob, TextFormat};
 use egui::{Align, Color32, Context, CornerRadius, FontId, Stroke, TextStyle, Theme, Ui, Visuals};
 
-/// Width of a live curve.
+/// Width of the curve of the present contact \[points\].
 pub const LIVE_WIDTH: f32 = 3.0;
-/// Width of a full solution drawn over a reduced one.
+/// Width of a full solution drawn over a reduced one \[points\].
 pub const FULL_WIDTH: f32 = 1.1;
-/// Width of reference and pinned curves.
+/// Width of reference and pinned curves \[points\].
 pub const THIN_WIDTH: f32 = 1.2;
 
 /// Minimum contrast of readable text (WCAG 2.2, level AA).
@@ -76,7 +76,7 @@ impl Palette {
 
     /// Returns the shade of a hue in which text is readable on one opaque background.
     pub fn ink_on(&self, color: Color32, background: Color32) -> Color32 {
-        // Names of faint lines are opaque.
+        // Text is opaque, even if it names a faint line.
         let color = color.to_opaque();
         let shades = (0..=20).map(|step| color.lerp_to_gamma(self.text, step as f32 / 20.0));
         shades.into_iter().find(|shade| contrast(*shade, background) >= READABLE).unwrap_or(self.text)
@@ -203,13 +203,13 @@ pub fn symbol(ui: &Ui, base: &str, subscript: &str) -> LayoutJob {
     job
 }
 
-/// Returns a name followed by its symbol for the rows of panels: "Load number *M*".
+/// Returns a name followed by its symbol for the rows of panels, such as "Load number *M*".
 pub fn name_and_symbol(ui: &Ui, name: &str, base: &str, subscript: &str) -> LayoutJob {
     let mark = if subscript.is_empty() { format!("{{{base}}}") } else { format!("{{{base}_{subscript}}}") };
     rich(&format!("{name} {mark}"), TextStyle::Body.resolve(ui.style()).size, ui.visuals().text_color())
 }
 
-/// Returns text with symbols in braces as formatted text: `Pressure {P} = {p}/{p_H}`.
+/// Returns formatted text. Symbols are in braces, as in `Pressure {P} = {p}/{p_H}`.
 pub fn rich(text: &str, size: f32, color: Color32) -> LayoutJob {
     let mut job = LayoutJob::default();
     let plain = TextFormat { font_id: FontId::proportional(size), color, ..TextFormat::default() };
@@ -225,6 +225,7 @@ pub fn rich(text: &str, size: f32, color: Color32) -> LayoutJob {
     job
 }
 
+/// Appends a symbol. Only Latin letters are slanted.
 fn append_symbol(job: &mut LayoutJob, size: f32, color: Color32, base: &str, subscript: &str) {
     let italics = base.starts_with(|c: char| c.is_ascii_alphabetic());
     let format = TextFormat { font_id: FontId::proportional(size), color, italics, ..TextFormat::default() };
@@ -235,8 +236,8 @@ fn append_symbol(job: &mut LayoutJob, size: f32, color: Color32, base: &str, sub
     }
 }
 
-/// Returns a colour of a perceptually uniform scale (viridis). t = 0 is close to the background of the theme, t = 1
-/// is far from it.
+/// Returns the colour at t of a perceptually uniform scale (viridis), 0 ≤ t ≤ 1. The colour at t = 0 is close to the
+/// background of the theme, and that at t = 1 is far from it.
 pub fn sequential(t: f32, dark: bool) -> Color32 {
     const STOPS: [(u8, u8, u8); 6] = [
         (0x44, 0x01, 0x54),
@@ -254,7 +255,7 @@ pub fn sequential(t: f32, dark: bool) -> Color32 {
     color(STOPS[at]).lerp_to_gamma(color(STOPS[at + 1]), place - at as f32)
 }
 
-/// Returns a faded colour for a curve behind the live one.
+/// Returns a colour faded by `strength` (1 keeps it), for curves behind that of the present contact.
 pub fn faded(color: Color32, strength: f32) -> Color32 {
     color.gamma_multiply(strength)
 }
@@ -335,7 +336,7 @@ mod tests {
     #[test]
     fn every_character_on_the_screen_has_a_glyph() {
         let mut sources = Vec::new();
-        // Text for the terminal only needs no glyph here.
+        // The other folders contain text for the terminal only.
         for folder in ["app", "engine", "scene", "solver"] {
             collect_sources(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src").join(folder), &mut sources);
         }

@@ -1,6 +1,6 @@
-//! Command `train`: trains the reduced model that a scene describes, of steady or transient contacts. Full solutions of
-//! a steady training are stored in `FILE.rom.training` until the model is written, so that the same command continues
-//! an interrupted training.
+//! Command `train`: trains the reduced model of steady or transient contacts that a scene describes. The full solutions
+//! of a steady training are stored in `FILE.rom.training` until the model is written. The same command therefore
+//! continues an interrupted training.
 
 use super::failure::Failure;
 use super::options::choices;
@@ -39,18 +39,19 @@ pub fn run(args: &TrainArgs) -> Result<Verdict, Failure> {
     }
     if scene.trains_in_time() {
         check_out(&args.out)?;
-        return in_time(&scene, args);
+        return train_transient(&scene, args);
     }
     let Some(spec) = scene.training() else {
         return Err(EngineError::NoTraining { path: args.scene.clone() }.into());
     };
-    let kept = training_file::beside(&args.out);
+    let training_path = training_file::beside(&args.out);
     check_out(&args.out)?;
-    // Errors that would otherwise occur at the end are found here.
-    let keeper = TrainingKeeper::new(kept.clone()).map_err(EngineError::from)?;
-    let mut state = match training_file::unfinished(&kept, &spec).map_err(EngineError::from)? {
+    // Refuses a training file that cannot be written now, before the training.
+    let keeper = TrainingKeeper::new(training_path.clone()).map_err(EngineError::from)?;
+    let mut state = match training_file::unfinished(&training_path, &spec).map_err(EngineError::from)? {
         Some(state) => {
-            let sentence = format!("continuing {}: it contains {} full solutions", kept.display(), state.solutions());
+            let (path, solutions) = (training_path.display(), state.solutions());
+            let sentence = format!("continuing {path}: it contains {solutions} full solutions");
             output::complain(&sentence);
             state
         }
@@ -72,9 +73,10 @@ pub fn run(args: &TrainArgs) -> Result<Verdict, Failure> {
     };
     match write(&args.out, |path| model_file::write(&model, path)) {
         Ok(Verdict::Done) => {}
-        elsewhere => {
+        // The model is not in its file, so the training is kept.
+        other => {
             keep(watch.keeper);
-            return elsewhere;
+            return other;
         }
     }
     watch.keeper.discard().map_err(EngineError::from)?;
@@ -93,7 +95,8 @@ fn check_out(out: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Writes a model. If that fails, writes it to the folder for temporary files and reports the path.
+/// Writes a model by `write` to the path `out`. If that fails, writes it to the folder for temporary files and reports
+/// this path.
 fn write(out: &Path, write: impl Fn(&Path) -> Result<(), ModelFileError>) -> Result<Verdict, Failure> {
     let Err(reason) = write(out) else { return Ok(Verdict::Done) };
     let refused = EngineError::Model { path: out.to_owned(), reason: reason.into() };
@@ -108,8 +111,8 @@ fn write(out: &Path, write: impl Fn(&Path) -> Result<(), ModelFileError>) -> Res
     }
 }
 
-/// Trains a transient model. Its few full marches take seconds to minutes and are not stored.
-fn in_time(scene: &Scene, args: &TrainArgs) -> Result<Verdict, Failure> {
+/// Trains a transient model. Its few full transient solutions take seconds to minutes and are not stored.
+fn train_transient(scene: &Scene, args: &TrainArgs) -> Result<Verdict, Failure> {
     let folder = args.scene.parent().unwrap_or(Path::new(""));
     let progress = ProgressLine::new(true);
     let trained = scene.train_in_time(&mut Workbench::new(folder), &progress);

@@ -1,4 +1,5 @@
-//! Dragging of an object in a plot: a line, or the contact itself.
+//! Dragging of an object in a plot, such as a line or the point of the contact. The state is stored in the memory of
+//! egui.
 
 use egui::{Id, Pos2, Ui};
 
@@ -7,7 +8,7 @@ use egui::{Id, Pos2, Ui};
 pub struct Grip(Id);
 
 impl Grip {
-    /// Creates the object with this name in one plot.
+    /// Returns the object with this name in the plot with the name `plot`.
     pub fn new(plot: &str, name: &str) -> Self {
         Self(Id::unique(("grip", plot.to_owned(), name.to_owned())))
     }
@@ -17,11 +18,11 @@ impl Grip {
         ui.data(|data| data.get_temp(self.0).unwrap_or(false))
     }
 
-    /// Returns the position of the pointer while the user drags the object. `near` states whether the pointer can
-    /// grab it.
+    /// Returns the screen position of the pointer while the user drags the object, after a move of more than one point.
+    /// Call in every frame. `near` is true if the pointer is close enough to grab the object.
     pub fn follow(self, ui: &Ui, near: bool) -> Option<Pos2> {
         let mut held = self.is_held(ui);
-        // Grabbing starts before the drag, so that the plot itself does not move.
+        // The object is held from the press on, before the drag starts, so that the plot itself does not move.
         if ui.input(|i| i.pointer.primary_pressed()) {
             held = near;
         }

@@ -1,10 +1,12 @@
-//! Field of a point contact as an image of both halves, with a colour table or as the interferogram of a rig.
+//! Image of a field of a point contact, by a colour table or as the interferogram of a rig. The field is given for
+//! Y ≤ 0, and the image shows both halves.
 
 use crate::solver::physics::optics::{Interferometer, RGB_WAVELENGTHS_M};
 use egui::{Color32, ColorImage};
 
-/// Number of pixels per Hertzian radius, and the minimum number per semi-axis of an elliptical contact.
+/// Number of pixels per Hertzian radius of a circular contact.
 const RESOLUTION: f64 = 100.0;
+/// Minimum number of pixels per shorter semi-axis of an elliptical contact.
 const FEWEST: f64 = 50.0;
 
 /// Values at the pixels of the half Y ≤ 0, row by row from the outer edge to the axis.
@@ -14,7 +16,7 @@ pub struct Raster {
     values: Vec<f32>,
 }
 
-/// Returns for each pixel the index of its upper node and the weight of that node.
+/// Returns the index of the upper node and its weight for each of `count` equidistant pixels between the outer nodes.
 fn places(nodes: &[f64], count: usize) -> Vec<(usize, f32)> {
     let (Some(&first), Some(&last)) = (nodes.first(), nodes.last()) else { return Vec::new() };
     let mut upper = 1;
@@ -30,10 +32,10 @@ fn places(nodes: &[f64], count: usize) -> Vec<(usize, f32)> {
 }
 
 impl Raster {
-    /// Samples a node array of a point contact bilinearly, times a scale, with square pixels. `kappa` is b/a; X is
-    /// scaled with a, Y with b. Node (i, j) at (X_i, Y_j) has the index i·n_y + j.
+    /// Samples a node array bilinearly at square pixels and multiplies it by `scale`. X is in units of the semi-axis a
+    /// and Y in units of b; `kappa` is b/a. Node (i, j) at (X_i, Y_j) has the index i·n_y + j.
     pub fn new((x, y): (&[f64], &[f64]), kappa: f64, field: &[f64], scale: f64) -> Self {
-        // The number of pixels equals that of a circular contact, so that long ellipses do not fill the memory.
+        // The number of pixels is about that of a circular contact, so that long ellipses do not fill the memory.
         let per_shorter = (RESOLUTION / kappa.max(kappa.recip()).sqrt()).max(FEWEST);
         let (per_a, per_b) =
             if kappa >= 1.0 { (per_shorter, per_shorter * kappa) } else { (per_shorter / kappa, per_shorter) };
@@ -58,15 +60,15 @@ impl Raster {
         Self { width, rows, values }
     }
 
-    /// Returns the image by a colour table that spans `low` to `high`.
+    /// Returns the image by a colour table whose ends are the colours of the values `low` and `high`.
     pub fn colored(&self, table: &[Color32], (low, high): (f64, f64)) -> ColorImage {
         let last = table.len().saturating_sub(1) as f32;
         let (low, factor) = (low as f32, last / (high - low) as f32);
         self.mirrored(|k| table[((self.values[k] - low) * factor).clamp(0.0, last) as usize])
     }
 
-    /// Returns the interferogram of film thicknesses in m: in grey for the light of the rig, or in three colours.
-    /// Fringes narrower than two pixels fade to their mean, as in a camera.
+    /// Returns the interferogram if the values are film thicknesses \[m\]: in grey at the wavelength of the rig, or in
+    /// colour by three wavelengths. Fringes narrower than two pixels fade to their mean, as in a camera.
     pub fn interferogram(&self, rig: &Interferometer, three_colors: bool) -> ColorImage {
         const STEPS: usize = 1024;
         let table: Vec<f32> =
@@ -84,6 +86,7 @@ impl Raster {
                 (255.0 * (0.5 + sharp * table[step.min(STEPS - 1)])) as u8
             }
         };
+        // Largest difference from a neighbouring pixel of the half.
         let change = |k: usize| {
             let value = self.values[k];
             let next = |other: usize| self.values.get(other).map_or(0.0, |v| (v - value).abs());
@@ -102,7 +105,7 @@ impl Raster {
         }
     }
 
-    /// Returns both halves from the colours of one.
+    /// Returns the image of both halves; `color` returns the colour of a pixel of the given half.
     fn mirrored(&self, color: impl Fn(usize) -> Color32) -> ColorImage {
         let mut pixels: Vec<Color32> = (0..self.values.len()).map(color).collect();
         for row in (0..self.rows).rev() {

@@ -1,4 +1,4 @@
-//! Errors of jobs.
+//! Reasons why a background job ends early, and a function that turns a panic into such a reason.
 
 use serde::{Deserialize, Serialize};
 use std::any::Any;
@@ -11,7 +11,7 @@ pub enum JobError {
     /// No thread could be started.
     #[error("no thread could be started for this computation")]
     NoThread,
-    /// Another instance of the program that did the work has ended.
+    /// The worker ended before the job. It is another instance of the program.
     #[error("the worker of this computation has ended; try again")]
     Lost,
     /// The work panicked.
@@ -23,7 +23,7 @@ pub enum JobError {
 }
 
 impl JobError {
-    /// Returns the failure with this reason.
+    /// Returns [`Self::Failed`] with this reason.
     pub fn failed(reason: impl Display) -> Self {
         Self::Failed(reason.to_string())
     }
@@ -35,7 +35,7 @@ impl From<String> for JobError {
     }
 }
 
-/// Panic, with its message.
+/// Panic of the work, with its message.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, thiserror::Error)]
 #[error("the solver stopped unexpectedly ({0}); the window and your work are not affected")]
 pub struct Panicked(String);
@@ -48,6 +48,7 @@ pub fn guarded<T>(run: impl FnOnce() -> T) -> Result<T, Panicked> {
     catch_unwind(AssertUnwindSafe(run)).map_err(|payload| Panicked(panic_text(&*payload).to_owned()))
 }
 
+/// Returns the message of a panic.
 fn panic_text(payload: &(dyn Any + Send)) -> &str {
     let text = payload.downcast_ref::<&str>().copied();
     text.or_else(|| payload.downcast_ref::<String>().map(String::as_str)).unwrap_or("no reason given")

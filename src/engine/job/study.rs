@@ -1,4 +1,5 @@
-//! Study of a scene as a job whose messages are its rows.
+//! Runs the study of a scene as a background job. Each message of the job is a row of the study. Where the program has
+//! no threads, the job runs in a worker, another instance of the program.
 
 use super::{Ending, Job, JobError, Reporter, Task, Wake};
 use crate::engine::{EngineError, Store, Workbench, name_of};
@@ -24,7 +25,7 @@ impl StudyObserver for Reporter<StudyRow> {
 #[derive(Serialize, Deserialize)]
 pub struct Asked {
     scene: Scene,
-    /// Model that replaces the embedded model of its contact kind, or all embedded models if true.
+    /// Model used instead of an embedded one: for all contacts if the flag is true, else for contacts of its own kind.
     model: Option<(Given, bool)>,
 }
 
@@ -33,12 +34,12 @@ pub struct Asked {
 pub enum Given {
     /// Name of an embedded model.
     Program(String),
-    /// Other model.
+    /// Any other model, sent as a whole.
     Own(Arc<ReducedModel>),
 }
 
 impl Given {
-    /// Returns the form in which a model is sent.
+    /// Returns a model in the form in which it is sent.
     pub fn of(model: &Arc<ReducedModel>) -> Self {
         match name_of(model) {
             Some(name) => Self::Program(name),
@@ -69,11 +70,11 @@ impl Task for Asked {
             let model = given.model(store)?;
             bench = if *for_all { bench.with_model(&model) } else { bench.using(&model) };
         }
-        self.scene.answer(reporter, |scene| scene.study.run(&scene.experiment(), &mut bench, reporter))
+        self.scene.run_job(reporter, |scene| scene.study.run(&scene.experiment(), &mut bench, reporter))
     }
 }
 
-/// Models to march along the inputs of a scene's transient study.
+/// Transient models to run with the inputs of a scene's transient study.
 #[derive(Serialize, Deserialize)]
 pub struct Replayed {
     scene: Scene,
@@ -87,7 +88,7 @@ impl Task for Replayed {
 
     fn run(self, store: &Store, reporter: &Reporter<StudyRow>) -> Ending {
         let Self { scene, models } = self;
-        scene.answer(reporter, |scene| match &scene.study {
+        scene.run_job(reporter, |scene| match &scene.study {
             Study::Transient(study) => {
                 study.replay(&models, &scene.experiment(), &mut Workbench::on(store, ""), reporter)
             }
@@ -97,33 +98,35 @@ impl Task for Replayed {
 }
 
 impl Scene {
-    /// Starts the study of the scene on a bench. [`Scene::outcome`] and the study evaluate the rows. A job that is
-    /// stopped keeps the rows received so far.
+    /// Starts the study of the scene on a bench. [`Scene::outcome`] evaluates the rows. The rows received before a
+    /// stop remain valid.
     pub fn ask(self, mut bench: Workbench, wake: Wake) -> Job<StudyRow> {
         let name = self.title.clone();
         if worker::THREADS {
             return Job::start(&name, wake, move |reporter| {
-                self.answer(reporter, |scene| scene.study.run(&scene.experiment(), &mut bench, reporter))
+                self.run_job(reporter, |scene| scene.study.run(&scene.experiment(), &mut bench, reporter))
             });
         }
         let model = bench.in_use().map(|(model, for_all)| (Given::of(model), for_all));
         Job::of(&name, wake, bench.store(), Asked { scene: self, model })
     }
 
-    /// Starts marches of existing models along the inputs of the scene's transient study, without the full solver.
-    /// Without effect for other studies.
+    /// Starts runs of existing transient models with the inputs of the scene's transient study, without the full
+    /// solver. The job of any other study returns no rows.
     pub fn replay(self, models: Vec<Model>, store: &Store, wake: Wake) -> Job<StudyRow> {
         let name = self.title.clone();
         Job::of(&name, wake, store, Replayed { scene: self, models })
     }
 
-    fn answer(
+    /// Checks the scene and runs `work` on all cores but one, which stays free for the window. A cancelled job is not
+    /// an error.
+    fn run_job(
         &self,
         reporter: &Reporter<StudyRow>,
-        answer: impl FnOnce(&Self) -> Result<(), EngineError> + Send,
+        work: impl FnOnce(&Self) -> Result<(), EngineError> + Send,
     ) -> Ending {
-        let answer = || self.check().map_err(EngineError::from).and_then(|()| answer(self));
-        match on_spare_cores(answer) {
+        let checked = || self.check().map_err(EngineError::from).and_then(|()| work(self));
+        match on_spare_cores(checked) {
             Err(error) if !error.cancelled() && !reporter.cancelled() => Err(JobError::failed(error)),
             _ => Ok(()),
         }
@@ -141,7 +144,7 @@ mod tests {
     use std::sync::mpsc::channel;
     use std::time::Duration;
 
-    /// One scene of each kind that the explorer also shows on separate tabs.
+    /// One study of each kind that the explorer also shows on a separate tab.
     const SCENES: [&str; 4] = [
         "study: RandomTest(range: TABLE, tests: 12, seed: 7, method: Reduced(), compare: 3)",
         "study: Sweep(over: [(vary: M, values: Log(from: 10.0, to: 30.0, n: 4))], methods: [Full, Reduced()])",
@@ -151,7 +154,7 @@ mod tests {
          selection: Distance(tolerance: 0.1), weightings: [DualTaylor]))",
     ];
 
-    /// Returns the rows of a scene that runs in another instance of the program.
+    /// Returns the rows of a scene after the path through a worker: the task and the rows are serialised.
     fn elsewhere(scene: Scene, store: &Store) -> Vec<StudyRow> {
         let task = rmp_serde::to_vec_named(&Asked { scene, model: None }).unwrap();
         let (sender, events) = channel();

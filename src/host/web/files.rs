@@ -1,5 +1,6 @@
-//! Files of a web page. Files that the user has chosen are kept in memory, and files of the session are stored by
-//! the browser. All other written files are offered for download.
+//! Files of the web page, with the same functions as files of the desktop program. Files that the user has chosen are
+//! kept in memory, and the browser stores the text files of the session. All other written files are offered for
+//! download.
 
 use super::page;
 use std::cell::RefCell;
@@ -21,12 +22,13 @@ fn missing() -> io::Error {
     io::Error::new(io::ErrorKind::NotFound, "no such file was opened in this page")
 }
 
-fn kept(path: &Path) -> Option<String> {
+/// Returns a stored file of the session; `None` for other paths.
+fn session_file(path: &Path) -> Option<String> {
     path.starts_with(SESSION).then(|| page::kept(&path.to_string_lossy())).flatten()
 }
 
-/// Receives a file that the user has chosen, as its name, a zero byte and its content. Only the name arrives if the
-/// file is too large to be read. Returns the path of the file.
+/// Stores a file that the user has chosen and returns its path. `file` consists of the name, a zero byte and the
+/// content, or only of the name if the file is too large to be read.
 pub fn arrived(file: &[u8]) -> PathBuf {
     let mut parts = file.splitn(2, |byte| *byte == 0);
     let name = String::from_utf8_lossy(parts.next().unwrap_or_default()).into_owned();
@@ -42,10 +44,10 @@ pub fn arrived(file: &[u8]) -> PathBuf {
 /// Reads at most `most` bytes of a file.
 ///
 /// # Errors
-/// If there is no such file.
+/// If there is no such file, or it was too large to be read.
 pub fn read_at_most(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     let most = usize::try_from(most).unwrap_or(usize::MAX);
-    if let Some(text) = kept(path) {
+    if let Some(text) = session_file(path) {
         return Ok(text.into_bytes().into_iter().take(most).collect());
     }
     FILES.with_borrow(|files| {
@@ -59,12 +61,12 @@ pub fn read_at_most(path: &Path, most: u64) -> io::Result<Vec<u8>> {
 /// Returns the size of a file \[bytes\].
 ///
 /// # Errors
-/// If there is no such file.
+/// If there is no such file, or it was too large to be read.
 pub fn size(path: &Path) -> io::Result<u64> {
     Ok(read_at_most(path, u64::MAX)?.len() as u64)
 }
 
-/// Returns true if there is a file with this path.
+/// Returns true if the file with this path can be read.
 pub fn exists(path: &Path) -> bool {
     size(path).is_ok()
 }
@@ -77,15 +79,15 @@ pub fn make_folder(_path: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// Copies a file to another name.
+/// Copies a file to another path. The original remains.
 ///
 /// # Errors
-/// If there is no such file, or the browser cannot store it.
+/// If it cannot be read, or the browser cannot store it.
 pub fn rename(path: &Path, other: &Path) -> io::Result<()> {
     replace(other, &read_at_most(path, u64::MAX)?)
 }
 
-/// Stores a file of the session, or offers another file for download.
+/// Stores a text file of the session. Offers any other file for download.
 ///
 /// # Errors
 /// If the browser cannot store it.

@@ -1,4 +1,4 @@
-//! Animated PNG: frames of equal size, each stored as the rectangle that changes.
+//! Writes animated PNG files. All frames have the same size, and only the rectangle that changes is stored of each.
 
 use super::Pixels;
 use png::{BitDepth, BlendOp, ColorType, Compression, DisposeOp, Encoder, EncodingError};
@@ -14,7 +14,7 @@ pub enum AnimationError {
     /// There are too few or too many frames.
     #[error("an animation of {0} frames cannot be made; accepted are 1 to {MOST_FRAMES}")]
     Frames(usize),
-    /// A frame has another size than the first one, or no pixels.
+    /// The frame with this number has another size than the first one.
     #[error("frame {0} has another size than the first one")]
     Size(usize),
     /// Reason why a frame cannot be drawn or encoded, as a sentence.
@@ -28,7 +28,7 @@ impl From<EncodingError> for AnimationError {
     }
 }
 
-/// Encodes `count` frames that `frame` draws in turn as an animated PNG that repeats for ever.
+/// Returns an animated PNG of `count` frames that repeats for ever. `frame` draws the frame with a given number.
 ///
 /// # Errors
 /// [`AnimationError`] if the number of frames or a frame is refused.
@@ -53,30 +53,31 @@ pub fn animated(
     encoder.set_dispose_op(DisposeOp::None)?;
     let mut writer = encoder.write_header()?;
     writer.write_image_data(&first.rgb)?;
-    let mut former = first;
+    let mut previous = first;
     for k in 1..count {
         let next = frame(k)?;
         if [next.width, next.height()] != size {
             return Err(AnimationError::Size(k));
         }
-        let [left, top, right, bottom] = changed(&former, &next);
+        let [left, top, right, bottom] = changed(&previous, &next);
         writer.reset_frame_position()?;
         writer.set_frame_dimension((right - left) as u32, (bottom - top) as u32)?;
         writer.set_frame_position(left as u32, top as u32)?;
         let rows = next.rgb.chunks_exact(3 * next.width).skip(top).take(bottom - top);
         let part: Vec<u8> = rows.flat_map(|row| row.get(3 * left..3 * right).unwrap_or_default()).copied().collect();
         writer.write_image_data(&part)?;
-        former = next;
+        previous = next;
     }
     writer.finish()?;
     Ok(file)
 }
 
-/// Returns the rectangle that contains all different pixels: left, top, right, bottom. One pixel if there are none.
-fn changed(former: &Pixels, next: &Pixels) -> [usize; 4] {
+/// Returns the smallest rectangle with all pixels that differ: left, top, right, bottom. Right and bottom are outside.
+/// One pixel if none differs.
+fn changed(previous: &Pixels, next: &Pixels) -> [usize; 4] {
     let length = 3 * next.width.max(1);
     let mut rect: Option<[usize; 4]> = None;
-    let rows = former.rgb.chunks_exact(length).zip(next.rgb.chunks_exact(length)).enumerate();
+    let rows = previous.rgb.chunks_exact(length).zip(next.rgb.chunks_exact(length)).enumerate();
     for (row, (before, after)) in rows {
         let differs = |(a, b): (&u8, &u8)| a != b;
         let Some(first) = before.iter().zip(after).position(differs) else { continue };
@@ -92,7 +93,7 @@ mod tests {
     use super::*;
     use std::io::Cursor;
 
-    /// A dot that moves over a plain ground.
+    /// Returns frame `k` of a dot that moves over a plain background.
     fn dot(k: usize) -> Pixels {
         let (width, height) = (40, 20);
         let mut rgb = vec![200; 3 * width * height];

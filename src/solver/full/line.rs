@@ -1,5 +1,5 @@
-//! Newton's method for line contacts. Steps are damped by backtracking on the residual. Linear solves are as accurate
-//! as the nonlinear convergence requires.
+//! Newton's method of the full solver for line contacts. Steps are damped by backtracking on the residual. Linear
+//! solves are only as accurate as the nonlinear convergence requires.
 
 mod preconditioner;
 
@@ -18,19 +18,19 @@ use std::sync::Arc;
 /// Step control of line contacts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Backtracking {
-    /// Half-bandwidth of the kernel in the preconditioner.
+    /// Half-bandwidth of the elastic kernel in the preconditioner \[nodes\].
     pub kernel_band: usize,
-    /// Shifts that kernel so that it ends at zero. This needs five times fewer Krylov iterations where the film
-    /// stores lubricant; the first Newton steps of a cold steady solve converge better without it.
+    /// Shifts this truncated kernel so that it ends at zero. In transient contacts this saves most Krylov iterations.
+    /// The first Newton steps of a steady solve without a starting solution converge better without it.
     pub levelled_kernel: bool,
-    /// Shortest share of a step in backtracking on the residual; 1 takes undamped Newton steps. This is appropriate
+    /// Shortest share of a step in backtracking on the residual. With 1 there is no backtracking. This is appropriate
     /// near a solution, where the penalty makes the residual jump although the step is good.
     pub shortest_step: f64,
-    /// Evaluates the residual after a step. It can be omitted if backtracking is off.
+    /// Evaluates the residual after a step. Only a control without backtracking can omit this.
     pub looks_back: bool,
     /// Largest change of P in one step.
     pub largest_step: f64,
-    /// Largest relative reduction of the film thickness in one step.
+    /// Largest reduction of the film thickness H in one step, relative to H.
     pub film_loss: f64,
     /// Finest and coarsest accuracy of a linear solve, relative to its right-hand side.
     pub forcing: (f64, f64),
@@ -63,10 +63,10 @@ impl StepControl for Backtracking {
     }
 }
 
-/// Largest change of P in one step with a cavitated set.
+/// Largest change of P in one step if a cavitated set, and not the penalty, prevents negative pressures.
 const LARGEST_STEP: f64 = 0.6;
 
-/// Residual before the previous step.
+/// Memory of the step control: the residual before the previous step, NaN before the first one.
 pub struct Residuals {
     previous: f64,
 }
@@ -88,7 +88,7 @@ impl NewtonSpace for LineSpace {
     const KIND: ContactKind = ContactKind::Line;
     const WORST_RESIDUAL: f64 = 1e12;
     const CLIPS: bool = false;
-    // In units of Moes' formula.
+    // In units of the film thickness by Moes' formula.
     const COLD_FILMS: [f64; 3] = [2.0, 1.2, 4.0];
     const FIRST_COLUMN: usize = INLET;
     const EASY_M: (f64, f64) = (15.0, 60.0);
@@ -159,9 +159,9 @@ impl NewtonSpace for LineSpace {
 }
 
 impl System<LineSpace> {
-    /// Takes the Newton step with backtracking on the residual; the shortest step is accepted in any case. The film
-    /// thickness may fall by the share `film_loss` at most. Returns ‖Δz‖/‖z‖ of the undamped step and the new
-    /// residual.
+    /// Takes the Newton step with backtracking on the residual. The shortest step is accepted in any case. The film
+    /// thickness falls at most by the share `film_loss`. Returns ‖Δz‖/‖z‖ of the undamped step and the new residual.
+    /// z contains the pressures P and the rigid-body separation H₀; Δz also contains the changes of film fractions.
     fn backtrack(&mut self, problem: &Problem, options: &SolveOptions<Backtracking>, before: f64) -> (f64, f64) {
         let dh_0 = self.update[self.rows.len()];
         self.spread_update();
@@ -182,7 +182,8 @@ impl System<LineSpace> {
         let fractions = self.active.square_of_fractions(&self.update);
         let size = (dot(&self.step, &self.step) + fractions + dh_0 * dh_0).sqrt();
         let (start_h_0, mut factor, mut taken) = (self.h_0, longest, 0.0);
-        // The equations of fractions are nearly linear. The next full step removes their error.
+        // A step is also accepted if the residual without the equations of the film fractions falls. These equations
+        // are nearly linear, so the next full step removes their error.
         let of_film = self.of_film(before);
         let shortest = longest * options.control.shortest_step;
         loop {
@@ -202,20 +203,20 @@ impl System<LineSpace> {
             let share = 1.0 - 1e-4 * factor;
             let better = residual < before * share || self.of_film(residual) < of_film * share;
             if better || factor <= shortest || relative < 1e-7 {
-                // A full recomputation of the deformation is not needed: the increments are exact to rounding.
+                // The deformation is not computed again, because its increments are exact to rounding.
                 return (size / norm, residual);
             }
             factor *= 0.5;
         }
     }
 
-    /// Returns the residual norm without the equations of fractions.
+    /// Returns a residual norm without the share of the equations of the film fractions.
     fn of_film(&self, residual: f64) -> f64 {
         (residual * residual - self.of_fractions * self.of_fractions).max(0.0).sqrt()
     }
 
-    /// Takes a step with the entries `update(i)`, the last of which is ΔH₀, damped like a Newton step. Returns
-    /// ‖Δz‖/‖z‖ (undamped) and the new residual.
+    /// Takes a given step, damped like a Newton step. `update(i)` is the change of unknown i; the last one is ΔH₀.
+    /// Returns ‖Δz‖/‖z‖ of the undamped step and the new residual.
     pub fn take_step(
         &mut self,
         problem: &Problem,

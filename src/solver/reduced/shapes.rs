@@ -1,10 +1,10 @@
-//! K V for all elliptical contacts of a local model: the deformation of modes V as a function of κ = b/a,
-//! interpolated between few values.
+//! Deformation K(κ) V of the modes V of a local model for all elliptical contacts. K is the elastic kernel and κ = b/a
+//! the ratio of the semi-axes; K V is interpolated between few values of κ.
 //!
 //! The entries are smooth functions of ln κ. With six Chebyshev nodes over the range of a local model the error is
-//! about 1e-6 of the largest deformation. The online cost hardly changes, because the rows are combined once per
-//! contact. Single precision (6e-8) is sufficient and halves the memory. The deformations of a local model take some
-//! 30 MB, so they are computed when it is first used.
+//! about 1e-6 of the largest deformation. The online cost hardly changes, because K V is interpolated once per contact.
+//! Single precision (6e-8) is sufficient and halves the memory. The deformations of a local model take much memory, so
+//! they are computed when it is first used.
 
 use super::online::ReducedError;
 use crate::host::pool::{computed, on_all_cores};
@@ -16,12 +16,12 @@ use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::sync::{Arc, OnceLock};
 
-/// Number of nodes in ln κ for radius ratios that differ at most tenfold, and for a wider range.
+/// Number of nodes in ln κ for a range of radius ratios up to a factor of ten, and for a wider range.
 const NODES: [usize; 2] = [6, 9];
-/// Part of the range by which shapes may be used beyond its ends.
+/// Part of the range of ln κ by which shapes may be used beyond each of its ends.
 const BEYOND: f64 = 0.1;
 
-/// K V of a local model for an interval of the radius ratio R_y/R.
+/// Deformation K V of the modes of a local model for an interval of the radius ratio R_y/R.
 #[derive(Clone, Debug)]
 pub struct Shapes {
     /// Interval of R_y/R.
@@ -33,7 +33,7 @@ pub struct Shapes {
     flexed: OnceLock<Vec<Mat<f32>>>,
 }
 
-/// Returns Chebyshev node `i` of the second kind in −1…1.
+/// Returns Chebyshev node `i` of the second kind of `count` nodes in −1…1.
 fn node(i: usize, count: usize) -> f64 {
     -(PI * i as f64 / (count - 1) as f64).cos()
 }
@@ -42,7 +42,7 @@ impl Shapes {
     /// Creates the shapes of modes on the nodes of a grid.
     ///
     /// # Errors
-    /// [`GridError`] if a ratio is not one of an ellipse.
+    /// [`GridError`] if no ellipse has one of the ratios.
     pub fn new(grid: &Arc<PointGrid>, ratios: (f64, f64)) -> Result<Self, GridError> {
         let (low, high) = ratios;
         let log_kappa = |ratio: f64| match Ellipse::of_ratio(ratio) {
@@ -69,14 +69,14 @@ impl Shapes {
                 Ok(Mat::from_fn(flexed.nrows(), flexed.ncols(), |node, k| flexed[(node, k)] as f32))
             };
             let all = on_all_cores(|| (0..count).into_par_iter().map(flexed).collect::<Result<_, GridError>>());
-            // A kernel fails by its size only, and the grid has one of this size.
+            // A kernel is refused only for its size, and the kernel of the grid has the same size.
             all.unwrap_or_default()
         });
         all
     }
 
-    /// Returns the factor, at least 1, by which R_y/R of a contact lies outside that of some shapes, or outside
-    /// circular contacts for `None`.
+    /// Returns the factor by which R_y/R of a contact lies outside the interval of the shapes, or of circular contacts
+    /// for `None`. It is 1 inside.
     pub fn aside(shapes: Option<&Self>, point: &OperatingPoint) -> f64 {
         let ((low, high), ratio) = (shapes.map_or(CIRCLES, |shapes| shapes.ratios), point.radius_ratio());
         (low / ratio).max(ratio / high).max(1.0)
@@ -98,12 +98,12 @@ impl Shapes {
         Ok(())
     }
 
-    /// Returns true if the shapes are valid for an ellipse; also slightly beyond their range.
+    /// Returns true if the shapes are valid for an ellipse. They are also valid slightly beyond their range.
     pub fn hold_for(&self, ellipse: &Ellipse) -> bool {
         self.place(ellipse).abs() <= 1.0 + 2.0 * BEYOND
     }
 
-    /// Returns ln κ scaled to −1…1.
+    /// Returns ln κ of an ellipse, scaled such that the interval is −1…1.
     fn place(&self, ellipse: &Ellipse) -> f64 {
         let (low, high) = self.ends;
         if high > low { (2.0 * ellipse.kappa.ln() - low - high) / (high - low) } else { 0.0 }
@@ -124,7 +124,8 @@ impl Shapes {
         sum
     }
 
-    /// Adds the deformation K(κ) V q by the first modes to a node array.
+    /// Adds the deformation K(κ) V q to the node array `film`. If there are fewer coefficients q than modes, they
+    /// belong to the first modes.
     pub(super) fn add_deformation(&self, modes: &Mat<f64>, ellipse: &Ellipse, coefficients: &[f64], film: &mut [f64]) {
         for (weight, flexed) in self.weights(ellipse).into_iter().zip(self.flexed(modes)) {
             for (q, column) in coefficients.iter().zip(flexed.col_iter()) {

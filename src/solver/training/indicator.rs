@@ -1,13 +1,13 @@
-//! Error indicators of a reduced solution without the full one (3.1.2).
+//! Error indicators for the selection of training points: they estimate the error of a reduced solution without an
+//! existing full solution (Section 3.1.2).
 //!
-//! The residual ranks pressures, not film thicknesses. The change by Newton steps of the full system ranks film
-//! thicknesses: Spearman's correlation with the true error of the central film thickness H_c is 0.97, compared with at
-//! most 0.76 for the residual. The steps are undamped. Damping by the residual would hide the error, since the penalty
-//! makes the residual jump even for a good step. Three steps give the minimum film thickness H_min accurately enough
-//! for a calibrated bound.
+//! The residual ranks solutions by the error of the pressure, not of the film thickness. The change by Newton steps of
+//! the full system ranks them by the error of the central film thickness H_c. These steps are undamped. Damping by the
+//! residual would hide the error, because the penalty makes the residual jump even for a good step. Three steps give
+//! the minimum film thickness H_min accurately enough for a calibrated bound.
 //!
-//! For shear-thinning and lubricant-parameterised models no fixed number of steps is sufficient everywhere. There the
-//! full system is solved until convergence. This is large-scale work, but needs no cold full solution.
+//! For shear-thinning, thermal, rough and lubricant-parameterised models no fixed number of steps is sufficient
+//! everywhere. Their full system is solved until convergence, starting from the reduced solution.
 
 use super::error::TrainingError;
 use super::observer::TrainingObserver;
@@ -34,6 +34,7 @@ pub(super) struct Judges<'a> {
 }
 
 impl<'a> Judges<'a> {
+    /// Creates the solvers for an indicator and a local model.
     pub fn new(indicator: Indicator, spec: &TrainingSpec, window: &Window, observer: &'a dyn TrainingObserver) -> Self {
         let model = Arc::new(spec.model_of(window));
         let (options, measures) = match indicator {
@@ -49,7 +50,10 @@ impl<'a> Judges<'a> {
     }
 
     /// Returns the indicator at each point; infinite if the reduced model fails. Every solve starts without previous
-    /// solutions, so that the result depends neither on the order nor on the threads.
+    /// solutions, so that the result depends neither on the order of the points nor on the number of threads.
+    ///
+    /// # Errors
+    /// If the observer cancels.
     pub fn judge(&mut self, points: &[OperatingPoint]) -> Result<Vec<f64>, TrainingError> {
         let Self { indicator, lubricant, measures, solvers, observer } = self;
         let measures = measures.as_ref();
@@ -94,10 +98,10 @@ fn error_at(
     error.is_finite().then_some(error)
 }
 
-/// Measures errors of a local model's reduced solutions by full Newton steps; keeps its work space.
+/// Measures errors of the reduced solutions of a local model by Newton steps of the full system.
 pub(super) struct Corrector {
     grid: ContactGrid,
-    /// Full solver, created at first use.
+    /// Full solver, created at first use and then kept.
     full: Option<ContactSolver>,
 }
 
@@ -107,43 +111,44 @@ impl Corrector {
         Self { grid: window.grid.clone(), full: None }
     }
 
-    /// Returns the relative errors of H_c, H_min, the state (e_z of (3.10)) and, if the model has a quadrature for it
-    /// and it is physical, the traction. They are estimated by a few full Newton steps from the reduced solution:
-    /// nearly exact for a good model, and large for a bad one. For models with sliding, heat or varying lubricants
-    /// they are measured against the full solution; `None` if that fails.
+    /// Returns the errors of a reduced solution: always of H_c, H_min and the state (e_z of (3.10)), and of further
+    /// quantities if they exist. The errors are estimated by a few Newton steps of the full system: nearly exact for a
+    /// good model, and large for a bad one. For shear-thinning, thermal, rough and lubricant-parameterised models they
+    /// are measured against the full solution. `None` if a solve fails.
     pub fn errors(&mut self, online: &Online, solved: &ReducedSolution) -> Option<Measured> {
         let before = online.reconstruct(solved).ok()?;
         let sliding = online.model.slides();
-        let converged = online.model.domain.measured_in_full();
+        let in_full = online.model.domain.measured_in_full();
         let full = self.full.get_or_insert_with(|| ContactSolver::on(&self.grid));
-        let after =
-            if converged { full_solution(full, &before)? } else { full.corrected(&before, CORRECTIONS).ok()? };
+        let after = if in_full { full_solution(full, &before)? } else { full.corrected(&before, CORRECTIONS).ok()? };
         let relative = |from: f64, to: f64| (from / to - 1.0).abs();
         let change = |from: f64, to: f64| before.problem.film_difference(from, to).abs();
         let (from, to) = (&before.scalars, &after.scalars);
         let (mut difference, mut size) = ((from.h_0 - to.h_0).powi(2), to.h_0.powi(2));
         for (node, was) in before.deformation().into_iter().enumerate() {
-            // Both have the same gap of the undeformed bodies.
+            // Both solutions have the same gap of the undeformed bodies.
             let is = was + (after.film[node] - before.film[node]) - (to.h_0 - from.h_0);
             difference += (before.pressure[node] - after.pressure[node]).powi(2) + (was - is).powi(2);
             size += after.pressure[node].powi(2) + is * is;
         }
         let (h_c, h_min) = (change(from.h_c, to.h_c), change(from.h_min, to.h_min));
         let state = (difference / size).sqrt();
-        let sound = [h_c, h_min, state].iter().all(|error| error.is_finite());
+        let finite = [h_c, h_min, state].iter().all(|error| error.is_finite());
         let slides = solved.point.sliding.slide_to_roll_ratio != 0.0;
-        let sensible = slides && before.problem.traction_warning().is_none();
+        let physical = slides && before.problem.traction_warning().is_none();
         let mixed = before.mixed().zip(after.mixed());
         let pair = match mixed {
-            // The boundary's part of the friction follows from the asperity load share.
-            Some((own, true_one)) => sensible.then_some((own.fluid_traction, true_one.fluid_traction)),
-            None => solved.traction.filter(|_| sliding && sensible).map(|own| (own, after.traction_coefficient())),
+            // The boundary friction follows from the asperity load share, so only the friction of the film counts here.
+            Some((reduced, exact)) => physical.then_some((reduced.fluid_traction, exact.fluid_traction)),
+            None => {
+                solved.traction.filter(|_| sliding && physical).map(|reduced| (reduced, after.traction_coefficient()))
+            }
         };
-        let load_share = mixed.map(|(own, true_one)| (own.asperity_load_share - true_one.asperity_load_share).abs());
-        let traction = pair.map(|(own, true_one)| relative(own, true_one)).filter(|error| error.is_finite());
+        let load_share = mixed.map(|(reduced, exact)| (reduced.asperity_load_share - exact.asperity_load_share).abs());
+        let traction = pair.map(|(reduced, exact)| relative(reduced, exact)).filter(|error| error.is_finite());
         let rises = before.heat.as_ref().zip(after.heat.as_ref());
-        let rise = rises.map(|(own, true_one)| own.central.difference(&true_one.central));
-        sound.then_some(Measured { h_c, h_min, state, traction, rise, load_share })
+        let rise = rises.map(|(reduced, exact)| reduced.central.difference(&exact.central));
+        finite.then_some(Measured { h_c, h_min, state, traction, rise, load_share })
     }
 }
 

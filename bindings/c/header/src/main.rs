@@ -1,4 +1,5 @@
-//! Writes `include/ehl_contact.h`. With `--check`, only checks that it is up to date.
+//! Writes the header `include/ehl_contact.h` of the C library from its Rust source. With `--check`, it only checks that
+//! the header is up to date.
 
 use std::error::Error;
 use std::path::Path;

@@ -1,4 +1,5 @@
-//! Confirmation before data is lost. It lists what would be lost and is shown only in this case.
+//! Dialog that asks for confirmation before an action discards unsaved data. It lists the losses. An action without
+//! losses needs no confirmation.
 
 use super::open::is_model;
 use super::state::Pending;
@@ -18,7 +19,7 @@ impl Pending {
 }
 
 impl Desk {
-    /// Returns what would be lost, one sentence each.
+    /// Returns the losses of an action, one sentence each.
     pub(super) fn losses(&self, pending: &Pending) -> Vec<String> {
         let edits = || {
             let text = "The operating point or its settings have changed since they were last saved.";
@@ -28,14 +29,14 @@ impl Desk {
             let text = "The study of the scene is running. Its results so far are not saved.";
             self.tabs.results.would_lose().then(|| text.to_owned())
         };
-        let march = || {
+        let transient_run = || {
             let text = "A transient run is being computed. Its results so far are not saved.";
             self.transient.runs_by_hand().then(|| text.to_owned())
         };
         match pending {
             Pending::Open(path) if is_model(path) => Vec::new(),
             Pending::New | Pending::OpenDialog | Pending::Open(_) | Pending::OpenScene(_) | Pending::OpenLink(_) => {
-                edits().into_iter().chain(study()).chain(march()).collect()
+                edits().into_iter().chain(study()).chain(transient_run()).collect()
             }
             Pending::Quit => edits().into_iter().chain(study()).chain(self.tabs.training.work.unkept()).collect(),
             Pending::Train => self.tabs.training.work.replaced(),
@@ -47,12 +48,13 @@ impl Desk {
         }
     }
 
+    /// Draws the dialog for the pending action, if there is one, and carries out the choice.
     pub(super) fn losses_ui(&mut self, ctx: &Context) {
         let Some(pending) = self.files.pending.clone() else { return };
         let losses = self.losses(&pending);
-        let replaces =
+        let closes_document =
             |pending: &Pending| !matches!(pending, Pending::Train | Pending::DiscardTraining | Pending::ThrowModelAway);
-        let edits = self.dirty() && replaces(&pending);
+        let edits = self.dirty() && closes_document(&pending);
         let (mut save, mut discard, mut cancel) = (false, false, false);
         let response = Modal::new(Id::unique("unsaved changes")).show(ctx, |ui| {
             ui.set_width(380.0);

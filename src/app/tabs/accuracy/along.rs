@@ -53,30 +53,37 @@ struct Wanted {
 pub struct Step(PathRow);
 
 impl Step {
+    /// Returns the path parameter c, 0 ≤ c ≤ 2.
     fn c(&self) -> f64 {
         self.0.values.first().copied().unwrap_or(f64::NAN)
     }
 
+    /// Returns the result of the reduced model.
     fn by_model(&self) -> Option<&ContactResult> {
         self.0.results().first()
     }
 
+    /// Returns H_c, the central film thickness, of the reduced model.
     fn reduced(&self) -> Option<f64> {
         Some(self.by_model()?.scalars?.h_c)
     }
 
+    /// Returns H_c of the full solution.
     fn full(&self) -> Option<f64> {
         Some(self.0.results().get(1)?.scalars?.h_c)
     }
 
+    /// Returns the error bound of H_c, relative.
     fn bound(&self) -> Option<f64> {
         Some(self.by_model()?.reduced.as_ref()?.error?.h_c.bound)
     }
 
+    /// Returns true inside the trained range.
     fn trained(&self) -> bool {
         self.by_model().is_some_and(|result| !result.untrained())
     }
 
+    /// Returns the relative error of H_c of the reduced model.
     fn error(&self) -> Option<f64> {
         Some((self.reduced()? / self.full()? - 1.0).abs())
     }
@@ -87,11 +94,11 @@ pub struct Followed {
     in_use: InUse,
     wanted: Wanted,
     /// True if it was started automatically.
-    unasked: bool,
+    automatic: bool,
     /// Contacts so far.
     pub steps: Vec<Step>,
     /// True if further contacts may follow.
-    open: bool,
+    running: bool,
 }
 
 /// State of the view.
@@ -119,14 +126,14 @@ impl Along {
                 results.steps.push(Step(row));
             }
         });
-        results.open = self.work.job().is_some();
+        results.running = self.work.job().is_some();
     }
 
-    /// Starts a short trajectory automatically, unless the user has requested another one.
-    fn show(&mut self, ctx: &egui::Context, store: &Store, in_use: &InUse) {
+    /// Starts a short trajectory automatically, unless the user has started one or the results are up to date.
+    fn start_automatically(&mut self, ctx: &egui::Context, store: &Store, in_use: &InUse) {
         let through = self.wanted.through;
         let other = |results: &Followed| results.in_use != *in_use || results.wanted.through != through;
-        if self.results.as_ref().is_none_or(|results| results.unasked && other(results)) {
+        if self.results.as_ref().is_none_or(|results| results.automatic && other(results)) {
             let points = if in_use.model.contact().is_line() { 41 } else { 11 };
             self.begin(ctx, store, in_use, (Wanted { through, points }, true));
         }
@@ -135,14 +142,15 @@ impl Along {
     /// Stops and discards a trajectory that was started automatically. It starts again when the view is shown
     /// again.
     pub fn hide(&mut self) {
-        if self.work.job().is_some() && self.results.as_ref().is_some_and(|results| results.unasked) {
+        if self.work.job().is_some() && self.results.as_ref().is_some_and(|results| results.automatic) {
             (self.results, self.work) = (None, Background::default());
         }
     }
 
-    /// Starts the trajectory. Each full solution starts from its neighbour on the path, never from a reduced one.
-    fn begin(&mut self, ctx: &egui::Context, store: &Store, in_use: &InUse, (wanted, unasked): (Wanted, bool)) {
-        self.results = Some(Followed { in_use: in_use.clone(), wanted, unasked, steps: Vec::new(), open: true });
+    /// Starts the trajectory. The initial guess of each full solution is its neighbour on the path, never a reduced
+    /// solution.
+    fn begin(&mut self, ctx: &egui::Context, store: &Store, in_use: &InUse, (wanted, automatic): (Wanted, bool)) {
+        self.results = Some(Followed { in_use: in_use.clone(), wanted, automatic, steps: Vec::new(), running: true });
         let range = match wanted.through {
             Through::Dissertation => ParameterSpace::of_tables(in_use.model.contact()),
             Through::Trained => in_use.trained_range(),
@@ -157,7 +165,7 @@ impl Along {
 /// Draws the view.
 pub fn ui(ui: &mut Ui, along: &mut Along, context: &Context<'_>, in_use: &InUse) {
     let ctx = ui.ctx().clone();
-    along.show(&ctx, context.answers.store(), in_use);
+    along.start_automatically(&ctx, context.answers.store(), in_use);
     let kind = in_use.model.contact();
     ui.horizontal_wrapped(|ui| {
         let through = ui.label("Through").on_hover_text("The range in which the parameters vary by (3.21)");
@@ -196,8 +204,8 @@ fn summary(results: &Followed) -> String {
     let Followed { wanted, steps, .. } = results;
     let failures = steps.iter().filter(|step| step.reduced().is_none()).count();
     let outside = steps.iter().filter(|step| !step.trained()).count();
-    // Places that the range excludes have no row.
-    let excluded = if results.open { 0 } else { wanted.points.saturating_sub(steps.len()) };
+    // Contacts that the range excludes have no row.
+    let excluded = if results.running { 0 } else { wanted.points.saturating_sub(steps.len()) };
     let worst = steps.iter().filter_map(Step::error).fold(0.0, f64::max);
     let mut text = format!(
         "{} of {} contacts through {}, {failures} failures, maximum error of {{H_c}} {}",
@@ -216,21 +224,21 @@ fn summary(results: &Followed) -> String {
 }
 
 impl Followed {
-    /// Returns the connected pieces of a quantity along the path. A line also ends where the range excludes a
-    /// place.
+    /// Returns the connected pieces of a quantity along the path. A piece also ends where the range excludes a
+    /// contact, because the gap in c then exceeds 1.5 steps.
     fn pieces(&self, value: impl Fn(&Step) -> Option<f64>) -> Vec<Vec<[f64; 2]>> {
         pieces(self.steps.iter().map(|step| (step.c(), value(step))), 3.0 / (self.wanted.points - 1) as f64)
     }
 }
 
-/// Returns the pieces of a line. Neighbouring points of a piece have values and are not further apart than a limit.
+/// Returns the pieces of a line. All points of a piece have values, and neighbours are closer than `apart`.
 fn pieces(points: impl Iterator<Item = (f64, Option<f64>)>, apart: f64) -> Vec<Vec<[f64; 2]>> {
     let mut pieces: Vec<Vec<[f64; 2]>> = Vec::new();
-    let mut former = None;
+    let mut previous = None;
     for (c, value) in points {
-        let goes_on = former.is_some_and(|former| c - former < apart);
-        former = value.map(|_| c);
-        match (value, pieces.last_mut().filter(|_| goes_on)) {
+        let continues = previous.is_some_and(|previous| c - previous < apart);
+        previous = value.map(|_| c);
+        match (value, pieces.last_mut().filter(|_| continues)) {
             (Some(value), Some(piece)) => piece.push([c, value]),
             (Some(value), None) => pieces.push(vec![[c, value]]),
             (None, _) => {}
@@ -246,6 +254,7 @@ fn draw(plot: &mut Canvas<'_, '_>, name: &str, pieces: Vec<Vec<[f64; 2]>>, look:
     }
 }
 
+/// Creates a plot whose X axis and cursor are linked to the other plot of the view.
 fn linked<'a>(ui: &Ui, id: &str, height: f32, x_title: &str, y_title: &str) -> PlotFrame<'a> {
     axes::plot(ui, id, height, x_title, y_title)
         .link_axis(Id::unique("trajectory"), Vec2b::new(true, false))
@@ -291,8 +300,8 @@ fn error_plot(ui: &mut Ui, results: &Followed, stale: bool, height: f32) {
     key::over(ui, height, entries, |ui, height| {
         let plot = linked(ui, "trajectory error", height, "{c}", "Relative error of {H_c}").decades_y(8.0);
         axes::show(plot, ui, ERROR, |plot| {
-            let truth = results.pieces(|s| log(s.error()));
-            draw(plot, "True error", truth, (film, 1.8, LineStyle::Solid));
+            let error = results.pieces(|s| log(s.error()));
+            draw(plot, "True error", error, (film, 1.8, LineStyle::Solid));
             let bound = results.pieces(|s| log(s.bound()));
             draw(plot, "Bound", bound, (accent, 1.2, LineStyle::dashed_dense()));
             for (k, step) in failed().enumerate() {

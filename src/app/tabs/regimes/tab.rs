@@ -26,7 +26,7 @@ use std::sync::Arc;
 /// Distance in screen points within which the pointer can grab the contact.
 const GRAB_RADIUS: f32 = 18.0;
 
-/// Key of the lines: a shape, and its reduced model if there is one.
+/// Data that the lines of the chart depend on: the shape of the contact, and its reduced model if there is one.
 #[derive(Clone)]
 struct Owner(FilmShape, Option<Arc<ReducedModel>>);
 
@@ -44,8 +44,8 @@ pub struct Choices {
     pub training_points: bool,
 }
 
-/// Regimes tab: its settings and the data kept between frames: the shading as an image, all lines, and the trail of the
-/// contact.
+/// State of the tab: its settings, and the data kept between frames. These are the shading as an image, all lines, and
+/// the trail of the contact.
 #[derive(Default)]
 pub struct Regimes {
     /// Settings of the chart.
@@ -57,11 +57,11 @@ pub struct Regimes {
 
 /// Name under which the refusal of a drag is stored.
 const FIELD: &str = "regimes";
-/// Height of the table of formulas below the chart.
+/// Height of the table of formulas below the chart \[points\].
 const FORMULAS: f32 = 212.0;
-/// Width of the hint with the switch and the button next to it.
+/// Width that the hint needs together with the checkbox and the button next to it \[points\].
 const HINT: f32 = 700.0;
-/// Text size of the regime.
+/// Text size of the name of the regime \[points\].
 const LARGE: f32 = 22.0;
 
 impl Regimes {
@@ -70,7 +70,7 @@ impl Regimes {
         self.trail.follow(kind, at(moes));
     }
 
-    /// Clears the trail, because another document is on the screen.
+    /// Clears the trail. Call after the document was replaced.
     pub fn forget(&mut self) {
         self.trail = Trail::default();
     }
@@ -81,17 +81,17 @@ impl Regimes {
         let dark = ui.visuals().dark_mode;
         let kind = context.document.point.kind;
         let present = FilmShape::of(&context.document.point);
-        // While the user drags the shape, the chart of the previous one stays, because a new chart takes longer
-        // than a frame.
+        // While the user changes an ellipse by dragging, the chart of the previous ellipse stays, because a new chart
+        // takes longer than a frame.
         let held = ui.input(|input| input.pointer.any_down());
-        let former = self.lines.as_ref().map(|(Owner(shape, _), _)| *shape);
-        let both_ellipses = matches!((former, present), (Some(FilmShape::Ellipse(_)), FilmShape::Ellipse(_)));
-        let shape = former.filter(|_| held && both_ellipses).unwrap_or(present);
+        let previous = self.lines.as_ref().map(|(Owner(shape, _), _)| *shape);
+        let both_ellipses = matches!((previous, present), (Some(FilmShape::Ellipse(_)), FilmShape::Ellipse(_)));
+        let shape = previous.filter(|_| held && both_ellipses).unwrap_or(present);
         if self.texture.as_ref().is_none_or(|t| (t.0, t.1) != (shape, dark)) {
             let texture = Texture::new(&ctx, "regimes", shading(shape, &palette));
             self.texture = Some((shape, dark, texture));
         }
-        // A model of circular contacts has no training contacts on a chart of elliptical contacts.
+        // The chart of an elliptical contact does not show a model of circular contacts, and vice versa.
         let model = context.answers.model(context.document).filter(|model| model.is_of(&context.document.point));
         let owner = Owner(shape, model.cloned());
         if self.lines.as_ref().is_none_or(|lines| lines.0 != owner) {
@@ -293,17 +293,18 @@ impl View for Regimes {
     }
 }
 
+/// Returns the point of a contact in the chart, (log10 M, log10 L).
 fn at(moes: Moes) -> PlotPoint {
     point(moes.m, moes.l)
 }
 
-/// Returns the Hertzian pressure of the limit in the units of the window.
+/// Returns the largest plausible Hertzian pressure with its unit in the unit system of the window.
 fn limit(ctx: &egui::Context) -> String {
     numbers::in_field_unit(QuantityKind::Pressure, PLAUSIBLE_HERTZ_PRESSURE_PA, units::system(ctx))
 }
 
-/// Draws a line of the chart with its name next to it.
-fn draw<'a>(plot: &mut Canvas<'_, 'a>, line: &'a ChartLine, place: usize, palette: &Palette) {
+/// Draws a line of the chart with its name next to it. `index` is its number among all lines.
+fn draw<'a>(plot: &mut Canvas<'_, 'a>, line: &'a ChartLine, index: usize, palette: &Palette) {
     let points = &line.points;
     let film = || line.value.map_or_else(String::new, |value| value.to_string());
     let (name, color, width, style) = match line.kind {
@@ -345,13 +346,14 @@ fn draw<'a>(plot: &mut Canvas<'_, 'a>, line: &'a ChartLine, place: usize, palett
         Kind::Boundary | Kind::Snapshots | Kind::Trajectory => None,
     };
     let drawn =
-        Line::new(name, PlotPoints::Borrowed(points)).id(("line", place)).color(color).width(width).style(style);
+        Line::new(name, PlotPoints::Borrowed(points)).id(("line", index)).color(color).width(width).style(style);
     plot.line(drawn.allow_hover(line.kind != Kind::Boundary));
     if let Some((text, Some(at), anchor)) = label {
-        plot.text(Text::new("", *at, text).anchor(anchor).id(("name", place)).allow_hover(false));
+        plot.text(Text::new("", *at, text).anchor(anchor).id(("name", index)).allow_hover(false));
     }
 }
 
+/// Draws the shading of the regimes over the whole chart.
 fn image(plot: &mut Canvas<'_, '_>, texture: egui::TextureId) {
     let (x, y) = ((M_AXIS.0.log10(), M_AXIS.1.log10()), (L_AXIS.0.log10(), L_AXIS.1.log10()));
     plot.field("shading", texture, x, y, egui::Color32::WHITE);

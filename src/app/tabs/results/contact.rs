@@ -1,5 +1,5 @@
-//! Table of the contact on the screen: its results by the reduced model and by the full solver, with units, and
-//! published formulas. It needs no study.
+//! Table of the results for the present contact, without a study. It compares the reduced model with the full solution,
+//! if there is one, and is shown next to the published film formulas.
 
 use crate::app::answers::picture::{Origin, Picture};
 use crate::app::context::Context;
@@ -11,19 +11,24 @@ use crate::scene::Table;
 use crate::solver::physics::engineering::{QuantityKind, UnitSystem};
 use egui::{Grid, ScrollArea, Ui};
 
-/// Width from which the formulas are placed next to the table.
+/// Width above which the formulas are next to the table, and not below it \[points\].
 const BESIDE: f32 = 860.0;
 
 /// Values below this limit are rounding errors.
-const NOTHING: f64 = 1e-9;
+const ROUNDING: f64 = 1e-9;
 
-/// Quantity of a picture: name with symbol, name in files, tooltip, value, and value with its unit.
+/// Quantity of a picture.
 struct Quantity {
+    /// Name on the screen, with its symbol.
     name: &'static str,
+    /// Name in files.
     symbol: &'static str,
+    /// Tooltip.
     tip: &'static str,
+    /// Value as computed, mostly dimensionless.
     value: f64,
-    si: String,
+    /// Value with its unit, empty for some dimensionless quantities.
+    with_unit: String,
 }
 
 /// Returns the displayed quantities from top to bottom.
@@ -34,42 +39,48 @@ fn quantities(picture: &Picture, system: UnitSystem) -> Vec<Quantity> {
     let place = |x: f64| numbers::length(x * hertz.half_width_m, system);
     let pressure = |p: f64| numbers::pressure(p * hertz.pressure_pa, system);
     let rolling = picture.solution.rolling_resistance();
-    let one = |name, symbol, tip, value, si| Quantity { name, symbol, tip, value, si };
+    let quantity = |name, symbol, tip, value, with_unit| Quantity { name, symbol, tip, value, with_unit };
     vec![
-        one(
+        quantity(
             "Central film thickness {H_c}",
             "H_c",
             "Film thickness at X = 0 and Y = 0; H = hR/a² (2.22)",
             s.h_c,
             film(s.h_c),
         ),
-        one(
+        quantity(
             "Minimum film thickness {H_min}",
             "H_min",
             "Minimum film thickness of the contact zone",
             s.h_min,
             film(s.h_min),
         ),
-        one("at {X}", "X_H_min", "Position of the minimum film thickness", s.x_h_min, place(s.x_h_min)),
-        one("Central pressure {P_c}", "P_c", "Pressure at X = 0 and Y = 0; P = p/p_H (2.22)", s.p_c, pressure(s.p_c)),
-        one("Maximum pressure {P_max}", "P_max", "Maximum pressure of all nodes", s.p_max, pressure(s.p_max)),
-        one("at {X}", "X_P_max", "Position of the maximum pressure", s.x_p_max, place(s.x_p_max)),
-        one(
+        quantity("at {X}", "X_H_min", "Position of the minimum film thickness", s.x_h_min, place(s.x_h_min)),
+        quantity(
+            "Central pressure {P_c}",
+            "P_c",
+            "Pressure at X = 0 and Y = 0; P = p/p_H (2.22)",
+            s.p_c,
+            pressure(s.p_c),
+        ),
+        quantity("Maximum pressure {P_max}", "P_max", "Maximum pressure of all nodes", s.p_max, pressure(s.p_max)),
+        quantity("at {X}", "X_P_max", "Position of the maximum pressure", s.x_p_max, place(s.x_p_max)),
+        quantity(
             "Rigid separation {H_0}",
             "H_0",
             "Rigid-body separation, with the kernel of (2.27) or (2.25)",
             s.h_0,
             String::new(),
         ),
-        one("Traction coefficient {µ}", "traction", TRACTION, picture.traction, friction(picture, system)),
-        one(
+        quantity("Traction coefficient {µ}", "traction", TRACTION, picture.traction, friction(picture, system)),
+        quantity(
             "Rolling resistance",
             "rolling_resistance_over_load",
             ROLLING,
             rolling / point.load,
             numbers::load(rolling, point.kind, system),
         ),
-        one(
+        quantity(
             "Load residual",
             "load_residual",
             "Load-balance residual, relative to the load",
@@ -82,16 +93,19 @@ fn quantities(picture: &Picture, system: UnitSystem) -> Vec<Quantity> {
     .collect()
 }
 
-/// Returns temperature rises and heat flows. Empty for an isothermal contact.
+/// Returns temperature rises \[K\], and heat flows as shares of the generated heat. Empty for an isothermal contact.
 fn temperatures(picture: &Picture, system: UnitSystem) -> Vec<Quantity> {
     let Some(heat) = picture.solution.heat.as_deref() else { return Vec::new() };
     let balance = &heat.balance;
-    let made = balance.sheared + balance.compressed;
+    let generated = balance.sheared + balance.compressed;
     let rise = |name, symbol, tip, value: f64| {
-        let si = numbers::shown(QuantityKind::TemperatureRise, value, system);
-        Quantity { name, symbol, tip, value, si }
+        let with_unit = numbers::shown(QuantityKind::TemperatureRise, value, system);
+        Quantity { name, symbol, tip, value, with_unit }
     };
-    let share = |name, symbol, tip, value: f64| Quantity { name, symbol, tip, value, si: numbers::percent(value) };
+    let share = |name, symbol, tip, value: f64| {
+        let with_unit = numbers::percent(value);
+        Quantity { name, symbol, tip, value, with_unit }
+    };
     [
         rise("Rise at mid-film", "mid_film_rise_k", "Above the inlet temperature, at X = 0", heat.central.mid_film_k),
         rise(
@@ -120,15 +134,15 @@ fn temperatures(picture: &Picture, system: UnitSystem) -> Vec<Quantity> {
             "Heat into body 1",
             "heat_into_body_1",
             "Share of the heat from shear and compression",
-            balance.into_bodies[0] / made,
+            balance.into_bodies[0] / generated,
         ),
         share(
             "Heat into body 2",
             "heat_into_body_2",
             "Share of the heat from shear and compression",
-            balance.into_bodies[1] / made,
+            balance.into_bodies[1] / generated,
         ),
-        share("Heat with the oil", "heat_with_the_oil", "Carried out of the contact", balance.carried / made),
+        share("Heat with the oil", "heat_with_the_oil", "Carried out of the contact", balance.carried / generated),
         share(
             "Heat residual",
             "energy_balance",
@@ -140,8 +154,8 @@ fn temperatures(picture: &Picture, system: UnitSystem) -> Vec<Quantity> {
 }
 
 /// Tooltip of the rise in the pressure spike.
-const SPIKE: &str = "Largest rise at mid-film in the pressure spike. It is a needle much narrower than the contact; finer \
-                     grids make it higher";
+const SPIKE: &str = "Largest rise at mid-film in the pressure spike. It is a needle much narrower than the contact; \
+                     finer grids make it higher";
 
 /// Tooltip of the rolling resistance.
 const ROLLING: &str = "½∫h dp of each body, over the load; it is present in pure rolling too";
@@ -149,7 +163,7 @@ const ROLLING: &str = "½∫h dp of each body, over the load; it is present in p
 /// Tooltip of the traction coefficient.
 const TRACTION: &str = "Shear stress at mid-film over the whole domain, over the load (3.41); zero in pure rolling";
 
-/// Returns the friction force as text.
+/// Returns the friction force with its unit, or a mark that states why the traction is not physical.
 fn friction(picture: &Picture, system: UnitSystem) -> String {
     let force = picture.traction * picture.key.point.load;
     picture
@@ -157,7 +171,8 @@ fn friction(picture: &Picture, system: UnitSystem) -> String {
         .map_or_else(|| numbers::load(force, picture.key.point.kind, system), |doubt| doubt.mark().to_owned())
 }
 
-/// Returns the picture, and the full solution of the same contact if it is another one.
+/// Returns the current picture. If the reduced model computed it, returns the full solution of the same contact too,
+/// if there is one.
 fn columns<'a>(context: &Context<'a>) -> Option<(&'a Picture, Option<&'a Picture>)> {
     let picture = context.answers.picture()?;
     let full = context.answers.full();
@@ -207,17 +222,17 @@ fn table_ui(ui: &mut Ui, picture: &Picture, full: Option<&Picture>, system: Unit
             ui.label(rich(title, 12.5, palette.quiet));
         }
         ui.end_row();
-        let truths = full.map(|full| quantities(full, system)).unwrap_or_default();
-        for (k, Quantity { name, tip, value, si, .. }) in quantities(picture, system).into_iter().enumerate() {
+        let full_quantities = full.map(|full| quantities(full, system)).unwrap_or_default();
+        for (k, Quantity { name, tip, value, with_unit, .. }) in quantities(picture, system).into_iter().enumerate() {
             ui.label(rich(name, 13.5, text)).on_hover_text(tip);
             ui.strong(numbers::significant(value)).on_hover_text(tip);
-            ui.label(si);
-            if let Some(truth) = truths.get(k).map(|truth| truth.value) {
-                ui.label(numbers::significant(truth)).on_hover_text(tip);
-                // Both values are zero up to rounding, so no deviation is shown.
-                let off = |truth| numbers::percent(value / truth - 1.0);
-                ui.label(Some(truth).filter(|truth| truth.abs() > NOTHING).map_or_else(String::new, off))
-                    .on_hover_text("Reduced over full, minus one");
+            ui.label(with_unit);
+            if let Some(full_value) = full_quantities.get(k).map(|quantity| quantity.value) {
+                ui.label(numbers::significant(full_value)).on_hover_text(tip);
+                // A full value that is zero up to rounding has no relative deviation.
+                let nonzero = full_value.abs() > ROUNDING;
+                let deviation = if nonzero { numbers::percent(value / full_value - 1.0) } else { String::new() };
+                ui.label(deviation).on_hover_text("Reduced over full, minus one");
             }
             ui.end_row();
         }

@@ -1,4 +1,5 @@
-//! Definition of a lubricant by its laws.
+//! Definition of a lubricant by its laws of density, viscosity, shear and cavitation, with heat and roughness. Checks
+//! the constants and scales the laws to an operating point.
 
 use super::cavitation::Cavitation;
 use super::error::LubricantError;
@@ -23,10 +24,10 @@ pub struct Lubricant {
     /// Shear law: dependence of the viscosity on the shear stress.
     #[serde(default)]
     pub shear: ShearLaw,
-    /// Stress that limits traction, or `None`.
+    /// Limiting shear stress of the traction, or `None`.
     #[serde(default)]
     pub limiting_stress: Option<LimitingStress>,
-    /// Cavitation model. Scenes give it in a separate field, and models have that of their training.
+    /// Cavitation model. Scenes give it in a separate field. A reduced model has that of its training.
     #[serde(skip)]
     pub cavitation: Cavitation,
     /// Thermal properties; `None` for an isothermal film at the inlet temperature. Scenes give them in a separate
@@ -52,8 +53,8 @@ pub(crate) struct WholeLubricant {
     roughness: Option<Roughness>,
 }
 
-/// Serialised form of the lubricant of a reduced model, which mentions the roughness only for rough surfaces. For
-/// self-describing formats such as JSON: `#[serde(with = "LubricantOfModel")]`.
+/// Serialised form of the lubricant of a reduced model: `#[serde(with = "LubricantOfModel")]`. It has the field
+/// `roughness` only if there is one, and therefore needs a self-describing format such as JSON.
 #[derive(Serialize, Deserialize)]
 #[serde(remote = "Lubricant", deny_unknown_fields)]
 pub(crate) struct LubricantOfModel {
@@ -146,9 +147,9 @@ impl Lubricant {
             heat.check(self.viscosity, matches!(self.density, DensityLaw::Tait(_)))?;
         }
         if self.shear != ShearLaw::Newtonian && self.limiting_stress.is_some_and(|limit| limit.eyring.is_some()) {
-            let twice = "the shear-thinning law of the film determines the traction too, so an Eyring stress in \
+            let refusal = "the shear-thinning law of the film determines the traction too, so an Eyring stress in \
                          addition is refused; leave one of the two out";
-            return Err(LubricantError(twice.to_owned()));
+            return Err(LubricantError(refusal.to_owned()));
         }
         self.limiting_stress.iter().try_for_each(LimitingStress::check)
     }
@@ -185,11 +186,14 @@ impl Lubricant {
         }
     }
 
-    /// Returns the contact that a grid for this one has to resolve: rough surfaces smooth the pressure over the film of
-    /// half the composite roughness, however thin a smooth film would be.
+    /// Returns the contact that a grid for `point` must resolve. For rough surfaces it has at least the film thickness
+    /// σ/2, half the composite roughness, because a thinner film does not make the pressure steeper.
     pub fn grid_contact(&self, point: &OperatingPoint) -> OperatingPoint {
-        let least = self.roughness.filter(|_| self.is_rough()).map(|roughness| 0.5 * roughness.sigma);
-        least.filter(|least| point.formula_film_m() < *least).map_or(*point, |least| point.at_film_m(least))
+        let least_film_m = self.roughness.filter(|_| self.is_rough()).map(|roughness| 0.5 * roughness.sigma);
+        match least_film_m {
+            Some(least) if point.formula_film_m() < least => point.at_film_m(least),
+            _ => *point,
+        }
     }
 
     /// Returns the laws that affect pressure and film thickness: all but the limiting stress, which limits traction
@@ -198,8 +202,8 @@ impl Lubricant {
         Self { limiting_stress: None, ..self }
     }
 
-    /// Returns the laws of the liquid: all but the limiting stress and the cavitation model. The latter changes H_c
-    /// by a few parts in ten million.
+    /// Returns the laws without the limiting stress and with the penalty as cavitation model, for comparisons.
+    /// The cavitation model hardly affects the central film thickness H_c.
     pub fn of_the_liquid(self) -> Self {
         Self { limiting_stress: None, cavitation: Cavitation::Penalty, ..self }
     }

@@ -1,4 +1,4 @@
-//! Generalised Newtonian laws: the dependence of viscosity on shear stress, and the conditions that determine it.
+//! Generalised Newtonian laws: the dependence of the viscosity on the shear stress, and the limiting shear stress.
 //!
 //! Every law is a factor F(τ/τ₀) ≤ 1 on the low-shear viscosity μ, explicit in the effective shear stress τ with the
 //! stress scale τ₀. It is combined with a second Newtonian plateau as in (3.40): η = μ(p) \[NPR + (1 − NPR) F\]. NPR
@@ -20,7 +20,7 @@ pub enum ShearLaw {
     Carreau {
         /// Critical shear stress G_c \[Pa\].
         critical_stress: f64,
-        /// β_c \[-\].
+        /// Exponent β_c \[-\], which sets the width of the transition.
         beta: f64,
         /// Power-law exponent n_c \[-\], in (0, 1\].
         n: f64,
@@ -51,16 +51,16 @@ pub enum ShearLaw {
 
 /// Limiting shear stress of a film, τ_L = τ_L0 + Λ p, beyond which the lubricant slips or yields; Bair & Winer 1979.
 /// It limits traction only. Pressure and film thickness, which the inlet determines, are computed without it. With an
-/// Eyring stress τ_E, the traction of a Newtonian film is first reduced to τ = τ_E asinh(τ_N/τ_E), Johnson &
+/// Eyring stress τ_E, the stress τ_N of a Newtonian film is first reduced to τ = τ_E asinh(τ_N/τ_E), Johnson &
 /// Tevaarwerk 1977.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LimitingStress {
-    /// τ_L0 \[Pa\].
+    /// Limiting stress τ_L0 at ambient pressure \[Pa\].
     pub ambient: f64,
-    /// Λ \[-\].
+    /// Slope Λ of the limiting stress with pressure \[-\].
     pub slope: f64,
-    /// τ_E \[Pa\] for the traction only, of films whose shear law is Newtonian.
+    /// Eyring stress τ_E \[Pa\] of the traction. Accepted only if the shear law of the film is Newtonian.
     #[serde(default)]
     pub eyring: Option<f64>,
 }
@@ -101,6 +101,7 @@ fn check_plateau(ratio: f64) -> Result<(), LubricantError> {
 }
 
 impl LimitingStress {
+    /// Refuses constants for which the law is not defined.
     pub(super) fn check(&self) -> Result<(), LubricantError> {
         check_constant("the limiting stress at ambient pressure", self.ambient, 0.0, 1e10)?;
         check_constant("the slope of the limiting stress", self.slope, 0.0, 1.0)?;
@@ -126,16 +127,16 @@ pub struct Fluidity {
     plateau: f64,
 }
 
-/// Factor F in the form in which it is evaluated.
+/// Factor F(t) in the form in which it is evaluated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Factor {
-    /// F = (1 + t^β)^q.
+    /// F = (1 + t^β)^q, where q = (1 − 1/n)/β.
     Power { beta: f64, q: f64, n: f64 },
     /// F = t/sinh t.
     HyperbolicSine,
 }
 
-/// Upper limit of t in the hyperbolic sine. Only intermediate Newton iterates reach it, and they must stay finite.
+/// Upper limit of t in the hyperbolic sine, so that it stays finite. Only intermediate Newton iterates exceed it.
 const STEEPEST: f64 = 150.0;
 
 impl Fluidity {
@@ -152,7 +153,8 @@ impl Fluidity {
         Some((Self { factor, plateau }, scale))
     }
 
-    /// True if it is a smooth function of t², without a kink where the stress changes its sign.
+    /// Returns true for Eyring's law, which is a smooth function of t². Other laws may have a kink where the stress
+    /// changes its sign.
     #[inline]
     pub fn is_smooth(&self) -> bool {
         self.factor == Factor::HyperbolicSine
@@ -165,7 +167,7 @@ impl Fluidity {
         (fluidity, slope)
     }
 
-    /// Returns the same at several t at once.
+    /// Returns g and t dg/dt at several t at once.
     #[inline]
     pub fn at_all<const N: usize>(&self, t: &[f64; N]) -> ([f64; N], [f64; N]) {
         let (factor, slope) = match self.factor {
@@ -188,13 +190,13 @@ impl Fluidity {
         if rate < 1e-9 {
             return rate;
         }
-        let alone = match self.factor {
+        let without_plateau = match self.factor {
             Factor::Power { n, .. } if rate > 1.0 => rate.powf(n),
             Factor::Power { .. } => rate,
             Factor::HyperbolicSine => rate.asinh(),
         };
         let wanted = rate.ln();
-        let mut log = alone.max(self.plateau * rate).ln();
+        let mut log = without_plateau.max(self.plateau * rate).ln();
         for _ in 0..4 {
             let (g, slope) = self.at(log.exp());
             let step = (log + g.ln() - wanted) / (1.0 + slope / g);
@@ -211,7 +213,7 @@ impl Fluidity {
 fn power<const N: usize>(beta: f64, q: f64, t: &[f64; N]) -> ([f64; N], [f64; N]) {
     let mut y = *t;
     elementary::raise(&mut y, beta);
-    // A y that is negligible next to 1 has no effect, so 1 + y need not be exact relative to y.
+    // 1 + y may lose the digits of a small y, because such a y has no effect.
     let mut factor = y.map(|y| 1.0 + y);
     elementary::raise(&mut factor, q);
     let mut slope = [0.0; N];
@@ -238,9 +240,9 @@ pub struct ScaledShear {
     pub fluidity: Fluidity,
     /// Stress scale τ₀ \[Pa\] of the law.
     pub stress_scale_pa: f64,
-    /// κ₁/τ₀ with κ₁ = p_H a/R. The difference of stress between the surfaces is this times H P_X.
+    /// κ₁/τ₀ with κ₁ = p_H a/R. The stresses at the two surfaces differ by this factor times H P_X.
     pub gradient: f64,
-    /// κ₂/τ₀ with κ₂ = η₀ (u₂ − u₁) R/a². The Newtonian stress due to sliding is this times μ̄/H.
+    /// κ₂/τ₀ with κ₂ = η₀ (u₂ − u₁) R/a². The Newtonian stress due to sliding is this factor times μ̄/H.
     pub sliding: f64,
     /// Slide-to-roll ratio SRR.
     pub slide_to_roll_ratio: f64,
@@ -251,7 +253,7 @@ impl ScaledShear {
     /// NPR = 1.
     ///
     /// # Errors
-    /// If NPR lies outside 0…1 or SRR is out of range.
+    /// If NPR lies outside 0…1 or SRR outside −10…10, or if NPR < 1 is given for a lubricant without a law.
     pub fn new(law: ShearLaw, sliding: Sliding, point: &OperatingPoint) -> Result<Option<Self>, LubricantError> {
         let srr = sliding.slide_to_roll_ratio;
         check_constant("the slide-to-roll ratio", srr, -10.0, 10.0)?;

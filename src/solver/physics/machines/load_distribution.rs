@@ -1,13 +1,13 @@
 //! Load distribution among the elements of a rolling bearing: equilibrium of the inner ring under a radial and an
 //! axial load. The ring does not tilt; centrifugal forces are neglected.
 //!
-//! The potential energy of the elements is a convex function of both displacements, so that Newton's method with a
-//! line search finds its minimum from anywhere. Source: Harris, Rolling Bearing Analysis, chapter 7.
+//! The potential energy of the elements is a convex function of both displacements. Newton's method with a line search
+//! therefore finds its minimum from every initial guess. Source: Harris, Rolling Bearing Analysis, chapter 7.
 
 use super::error::MachineError;
 use std::f64::consts::TAU;
 
-/// Elements between two rings, as springs Q = K δⁿ.
+/// Elements between two rings as springs: an element compressed by δ \[m\] carries the load Q = K δⁿ \[N\].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Springs {
     /// Number of elements.
@@ -22,7 +22,7 @@ pub(super) struct Springs {
     pub axial_m: f64,
     /// Distance of the groove centres at which an element is just touched \[m\].
     pub free_m: f64,
-    /// Elements transmit axial forces.
+    /// True if the elements transmit axial forces.
     pub carries_axial: bool,
 }
 
@@ -35,15 +35,18 @@ pub(super) struct Displacement {
     pub axial_m: f64,
 }
 
-/// Spring of one element: compression with its derivatives with respect to both displacements.
+/// Compression of one element with its derivatives by the radial displacement r and the axial displacement a.
 struct Compression {
+    /// Compression δ \[m\]; negative without contact.
     value: f64,
+    /// ∂/∂r, ∂/∂a.
     gradient: [f64; 2],
     /// ∂²/∂r², ∂²/∂r∂a, ∂²/∂a².
     curvature: [f64; 3],
 }
 
 impl Springs {
+    /// Returns the compression of the element at an orbit angle \[rad\], measured from the radial load.
     fn compression(&self, orbit: f64, at: Displacement) -> Compression {
         let cosine = orbit.cos();
         let radial = self.radial_m + at.radial_m * cosine;
@@ -60,7 +63,8 @@ impl Springs {
         }
     }
 
-    /// Returns load \[N\] and contact angle \[rad\] of an element at an orbit angle \[rad\], measured from the load.
+    /// Returns load \[N\] and contact angle \[rad\] of the element at an orbit angle \[rad\], measured from the radial
+    /// load.
     pub fn element(&self, orbit: f64, at: Displacement) -> (f64, f64) {
         let Compression { value, .. } = self.compression(orbit, at);
         let angle = if self.carries_axial {
@@ -71,12 +75,14 @@ impl Springs {
         (self.stiffness * value.max(0.0).powf(self.exponent), angle)
     }
 
+    /// Returns the potential energy of the elements and of the radial and axial force \[J\].
     fn energy(&self, forces: [f64; 2], at: Displacement) -> f64 {
         let stored: f64 =
             self.orbits().map(|orbit| self.compression(orbit, at).value.max(0.0).powf(self.exponent + 1.0)).sum();
         self.stiffness * stored / (self.exponent + 1.0) - forces[0] * at.radial_m - forces[1] * at.axial_m
     }
 
+    /// Returns the orbit angles of all elements \[rad\].
     fn orbits(&self) -> impl Iterator<Item = f64> {
         let elements = f64::from(self.elements);
         (0..self.elements).map(move |k| TAU * f64::from(k) / elements)
@@ -91,8 +97,9 @@ impl Springs {
         let size = forces[0].hypot(forces[1]);
         let unit = (size / (f64::from(self.elements) * self.stiffness)).powf(self.exponent.recip());
         let mut here = Displacement { radial_m: 0.0, axial_m: 0.0 };
-        // Without contact the energy falls at a constant rate, so the step doubles until elements are touched.
-        let mut stride = unit;
+        // Without contact the energy has no curvature. The ring then moves along the force by doubled steps until it
+        // touches elements.
+        let mut free_step = unit;
         for _ in 0..400 {
             let (mut gradient, mut hessian) = ([-forces[0], -forces[1]], [0.0; 3]);
             for orbit in self.orbits() {
@@ -121,12 +128,12 @@ impl Springs {
                     (ra * gradient[0] - rr * gradient[1]) / determinant,
                 ]
             } else {
-                stride *= 2.0;
-                [forces[0] / size * stride, forces[1] / size * stride]
+                free_step *= 2.0;
+                [forces[0] / size * free_step, forces[1] / size * free_step]
             };
             match self.descend(forces, here, step, gradient) {
                 Some(next) => here = next,
-                // Rounding of the displacements ends the search.
+                // Rounding prevents a further decrease close to the minimum.
                 None if gradient[0].hypot(gradient[1]) <= 1e-6 * size => return Ok(here),
                 None => break,
             }
@@ -134,7 +141,8 @@ impl Springs {
         Err(MachineError::NoEquilibrium)
     }
 
-    /// Returns the first point of a line search that reduces the energy sufficiently.
+    /// Returns the first point of a line search along `step` that reduces the energy sufficiently; `None` if there is
+    /// none.
     fn descend(
         &self,
         forces: [f64; 2],

@@ -1,4 +1,5 @@
-//! Laws of the mean pressure that touching asperities carry, as a function of the separation l = h/σ.
+//! Laws of the mean pressure that touching asperities carry, and of their real contact area, as functions of the
+//! separation l = h/σ.
 
 use super::mean_gap::mean_gap;
 use super::roughness::{SurfaceConstant, SurfaceError};
@@ -27,11 +28,11 @@ pub enum AsperityLaw {
         /// Hardness of the softer body \[Pa\].
         hardness: f64,
     },
-    /// p₀ e^(−l/c).
+    /// Empirical law p₀ e^(−l/c).
     Exponential {
         /// Pressure p₀ at l = 0 \[Pa\].
         pressure: f64,
-        /// Separation c over which the pressure falls by e \[-\].
+        /// Separation c over which the pressure falls by the factor e \[-\].
         decay: f64,
     },
 }
@@ -47,15 +48,15 @@ impl Default for AsperityLaw {
 const LEAST_SUMMITS: f64 = 0.0193;
 /// 1 − (s_s/σ)² times (nβσ)², where s_s is the standard deviation of the heights of summits.
 const SUMMIT_VARIANCE: f64 = 3.717e-4;
-/// Distance of the mean plane of summits from that of heights, times nβσ/σ.
+/// Distance of the mean plane of summits from that of heights in units of σ, times nβσ.
 const SUMMIT_PLANE: f64 = 0.045944;
-/// Share of the hardness at first yield.
+/// Mean pressure of a summit at first yield, relative to the hardness.
 const YIELD: f64 = 0.4;
 /// Ratio of the interferences of full plasticity and of first yield.
 const PLASTIC: f64 = 54.0;
 
 impl AsperityLaw {
-    /// Returns its name in sentences.
+    /// Returns the name of the law for use in sentences.
     pub fn name(self) -> &'static str {
         match self {
             Self::GreenwoodTripp { .. } => "Greenwood-Tripp",
@@ -88,7 +89,7 @@ impl AsperityLaw {
     }
 
     /// Returns the mean pressure \[Pa\] and its derivative by l at a separation l. `modulus_pa` is the reduced modulus
-    /// E′ of (2.5), twice the contact modulus of both papers.
+    /// E′ of (2.5), twice the contact modulus E* of both papers.
     pub fn pressure(self, modulus_pa: f64, separation: f64) -> (f64, f64) {
         match self {
             Self::GreenwoodTripp { eta_beta_sigma, sigma_over_beta } => {
@@ -113,7 +114,7 @@ impl AsperityLaw {
     pub fn contact_area(self, modulus_pa: f64, separation: f64) -> Option<f64> {
         match self {
             Self::GreenwoodTripp { eta_beta_sigma, .. } => {
-                // F_2 = (1 + l²)Φ(−l) − l φ(l), with F_1 = T(−l) of the mean gap.
+                // F_2(l) = Φ(−l) − l F_1(l), and the functions of the mean gap at −l are F_1(l) and Φ(−l).
                 let (first, share) = mean_gap(-separation);
                 Some((PI * eta_beta_sigma).powi(2) * (share - separation * first))
             }
@@ -126,8 +127,8 @@ impl AsperityLaw {
     }
 }
 
-/// Returns F_3/2(l) and F_5/2(l) of F_ν(l) = √(2/π) ∫₀^∞ t^(2ν+1) e^(−(l+t²)²/2) dt, which is the integral of (s − l)^ν over
-/// the normal density of heights s > l. The trapezoidal rule converges exponentially here.
+/// Returns F_3/2(l) and F_5/2(l). F_ν(l) is the integral of (s − l)^ν over the normal density of heights s > l:
+/// √(2/π) ∫₀^∞ t^(2ν+1) e^(−(l+t²)²/2) dt. The trapezoidal rule converges exponentially here.
 fn greenwood_tripp_integrals(l: f64) -> [f64; 2] {
     const STEP: f64 = 0.09;
     // The density is below e^(−50) beyond t² = 10 − l.
@@ -142,7 +143,7 @@ fn greenwood_tripp_integrals(l: f64) -> [f64; 2] {
     [lower, upper].map(|sum| (2.0 / PI).sqrt() * STEP * sum)
 }
 
-/// Elastic–plastic summits of Gaussian heights; lengths in units of σ.
+/// Elastic–plastic summits of Gaussian heights. The interference w of a summit is its compression in units of σ.
 struct Summits {
     /// E* = E′/2 \[Pa\].
     contact_modulus: f64,
@@ -152,11 +153,11 @@ struct Summits {
     density: f64,
     /// √(σ/β).
     root: f64,
-    /// Interference w₁ of first yield.
+    /// Interference w₁ at first yield.
     yields_at: f64,
 }
 
-/// Nodes and weights of Gauss' rule with eight points on (−1, 1): the positive half.
+/// Positive nodes and their weights of the Gauss–Legendre rule with eight points on (−1, 1).
 const GAUSS_8: [(f64, f64); 4] = [
     (0.183_434_642_495_649_8, 0.362_683_783_378_362),
     (0.525_532_409_916_329, 0.313_706_645_877_887_3),
@@ -176,7 +177,7 @@ impl Summits {
         }
     }
 
-    /// Returns the mean of a function of the interference of summits over their heights, and its derivative by l.
+    /// Returns the mean of a function of the interference over the heights of all summits, and its derivative by l.
     fn mean(&self, l: f64, of: impl Fn(f64) -> f64) -> [f64; 2] {
         const PANELS: f64 = 12.0;
         let distance = l - SUMMIT_PLANE / self.density;
@@ -193,7 +194,7 @@ impl Summits {
             if low >= high {
                 continue;
             }
-            // In √w the load of a summit is smooth at w = 0.
+            // The load of a summit is a smooth function of √w at w = 0.
             let (low, width) = (low.sqrt(), high.sqrt() - low.sqrt());
             let panels = (PANELS * width / (to.sqrt() - from.sqrt())).ceil();
             let half = 0.5 * width / panels;

@@ -1,6 +1,6 @@
-//! Newton's method of the reduced model for the pressure coefficients p̃ and the rigid-body separation H₀. The cost of an
-//! iteration does not depend on the number of nodes of the grid, and it allocates nothing. Extensions of the equations,
-//! such as a moving cavitation boundary, heat or shear-thinning, are parts ([`Part`]) that add their share to each stage.
+//! Newton's method of the reduced model for the pressure coefficients p̃ and the rigid-body separation H₀. The cost of
+//! an iteration does not depend on the number of nodes of the grid, and it allocates nothing. Extensions of the
+//! equations, such as heat or a moving cavitation boundary, are parts ([`Part`]) that contribute to each stage.
 
 use super::assembled::Operators;
 use super::case::{Case, State};
@@ -9,26 +9,27 @@ use super::sampled_system::SampledSystem;
 use crate::solver::discrete::reynolds::film_integrals::LAST_STEP;
 use faer::MatRef;
 
-/// Number of steps after which derivatives by the cavitation boundary are exact, since an approximation may be the
-/// reason for slow convergence. Most solves take two to five steps.
+/// Number of steps after which derivatives are computed for the current cavitation boundary and not for a nearby one,
+/// because this approximation may be the reason for slow convergence. Most solves take two to five steps.
 const SLOW_AFTER: usize = 12;
 
-/// Relative step below which derivatives are reused, and largest ratio of successive steps for which this continues.
+/// Relative step below which derivatives are reused.
 const NEAR: f64 = 1e-2;
+/// Largest ratio of successive steps for which this continues.
 const SHRINKS: f64 = 0.3;
 
-/// Step at which the iteration for the film at a shear-thinning node ends, over the squared tolerance of Newton's method.
-/// The errors of both iterations are proportional to the square of their last step. At a tolerance of 1e-3 both errors are equal; at 1e-5
-/// films are exact to rounding.
+/// Step at which the iteration for the film at a shear-thinning node ends, over the squared tolerance of Newton's
+/// method. The errors of both iterations are proportional to the square of their last step. At a tolerance of 1e-3 both
+/// errors are equal; at 1e-5 the films are exact to rounding.
 const FILM_STEP: f64 = 1e3;
 
-/// Purpose of an evaluation of the rows.
+/// Purpose of an evaluation of the sampled equations.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Wanted {
-    /// A step with new derivatives. With `exact`, the deformation K V of the modes is computed for the current cavitation
-    /// boundary, instead of a nearby one that is stored.
+    /// A step with new derivatives. With `exact`, the deformation K V of the modes V is that of the current cavitation
+    /// boundary, instead of that of a nearby one that is stored.
     Step { exact: bool },
-    /// A step with previous derivatives, and the quantities that the cavitation boundary checks.
+    /// A step with the previous derivatives. The quantities that the cavitation boundary checks are evaluated too.
     StepAgain,
     /// The residual at the end of the iteration.
     Rest,
@@ -38,23 +39,25 @@ pub(super) enum Wanted {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct OnlineOutcome {
     pub converged: bool,
+    /// Number of Newton steps.
     pub iterations: usize,
+    /// Relative size of the last step.
     pub step: f64,
-    /// e_f^I, (3.15), with rows weighted by √w.
+    /// Residual norm e_f^I of (3.15), with equations weighted by √w; w are the quadrature weights.
     pub residual: f64,
 }
 
-/// Online iterate for the training.
+/// Iterate of the reduced model and its step, for the training.
 pub(crate) struct Iterate<'a> {
     /// f_I: values of the sampled equations.
     pub residual: &'a [f64],
-    /// J V Δz̃ on the sampled equations.
+    /// Product J V Δz̃ of the Jacobian with the step, at the sampled equations.
     pub jacobian_step: &'a [f64],
-    /// Reduced Jacobian including the load row.
+    /// Reduced Jacobian including the load equation.
     pub jacobian: MatRef<'a, f64>,
-    /// (Δp̃, ΔH₀).
+    /// Step (Δp̃, ΔH₀).
     pub step: &'a [f64],
-    /// p̃ before the step.
+    /// Coefficients p̃ before the step.
     pub coefficients: &'a [f64],
     /// Film thickness at X = 0 per unit of each coefficient.
     pub lift: &'a [f64],
@@ -96,13 +99,13 @@ impl Operators {
             }
             outcome.iterations = iteration;
             if let Some(observer) = observer.as_mut() {
-                self.show(case, (coefficients, *h_0), observer);
+                self.report(case, (coefficients, *h_0), observer);
             }
             let Self { system, parts, equations, .. } = self;
             spread_step(system, parts);
-            let longest = parts.iter().find_map(|part| part.longest_step(system, case));
-            let omega = longest.unwrap_or_else(|| system.damping(case.scale));
-            let former = outcome.step;
+            let by_part = parts.iter().find_map(|part| part.longest_step(system, case));
+            let omega = by_part.unwrap_or_else(|| system.damping(case.scale));
+            let previous = outcome.step;
             outcome.step = system.take_step(omega, coefficients, h_0);
             if !outcome.step.is_finite() {
                 return outcome;
@@ -115,11 +118,11 @@ impl Operators {
                 Moved::State => spread(system, parts, coefficients),
                 Moved::Still | Moved::BetweenRows | Moved::PastRows => {}
             }
-            // Not with a penalty, whose derivative jumps where a pressure changes sign, nor with an observer, which needs
-            // the equations of each step.
+            // Derivatives are not reused with a penalty, because its derivative jumps where a pressure changes sign.
+            // They are not reused with an observer either, because it needs the equations of each step.
             near = moved < Moved::PastRows
                 && omega == 1.0
-                && outcome.step < if near { SHRINKS * former } else { NEAR }
+                && outcome.step < if near { SHRINKS * previous } else { NEAR }
                 && case.penalty == 0.0
                 && observer.is_none()
                 && equations.have_factors();
@@ -137,7 +140,7 @@ impl Operators {
     }
 
     /// Passes an iterate and its step to the observer.
-    fn show(&mut self, case: &Case<'_>, (coefficients, h_0): (&[f64], f64), observer: &mut RowObserver<'_>) {
+    fn report(&mut self, case: &Case<'_>, (coefficients, h_0): (&[f64], f64), observer: &mut RowObserver<'_>) {
         self.system.times_step();
         let s = &self.system;
         let h_c = h_0 - 0.5 * case.scale.ln() + self.lifted(coefficients);
@@ -160,9 +163,9 @@ impl Operators {
         if !parts.iter_mut().any(|part| part.nodes(system, case, state)) {
             system.evaluate_nodes(case, wanted == Wanted::Rest);
         }
-        let sloping = matches!(wanted, Wanted::Step { .. });
-        let mut sum = system.evaluate_rows(case, sloping);
-        sum += parts.iter_mut().map(|part| part.rows(system, case, sloping)).sum::<f64>();
+        let with_slopes = matches!(wanted, Wanted::Step { .. });
+        let mut sum = system.evaluate_rows(case, with_slopes);
+        sum += parts.iter_mut().map(|part| part.rows(system, case, with_slopes)).sum::<f64>();
         if let Wanted::Step { exact } = wanted {
             parts.iter_mut().for_each(|part| part.slopes(system));
             system.evaluate_jacobian(scale);
@@ -184,7 +187,7 @@ pub(super) fn spread(system: &mut SampledSystem, parts: &mut [Box<dyn Part>], co
     system.fields = fields;
 }
 
-/// Computes the same quantities for the Newton step.
+/// Computes the same quantities as [`spread`] for the coefficients of the Newton step.
 fn spread_step(system: &mut SampledSystem, parts: &mut [Box<dyn Part>]) {
     let mut fields = std::mem::take(&mut system.step_fields);
     let step = &system.step.rhs[..system.modes];
