@@ -54,6 +54,19 @@ fn a_rough_contact_runs_in_full_with_the_load_of_its_asperities() {
 }
 
 #[test]
+fn quitting_asks_before_it_discards_a_running_transient_run() {
+    let (mut harness, _folder) = open("quit", &scene(BREATHING, 2000.0, "Fixed"));
+    click(&mut harness, "Run transient");
+    harness.run_steps(3);
+    press(&mut harness, Modifiers::COMMAND, Key::Q);
+    harness.run_steps(3);
+    assert!(shows(&harness, "This would be lost"));
+    assert!(shows(&harness, "A transient run is being computed. Its results so far are not saved."));
+    click(&mut harness, "Quit anyway");
+    assert!(!shows(&harness, "This would be lost"));
+}
+
+#[test]
 fn frames_are_run_compared_scrubbed_played_and_exported() {
     let (mut harness, folder) = open("frames", &scene(BREATHING, 2.0, "Fixed, ArbitraryLagrangianEulerian"));
     run_in_time(&mut harness);

@@ -38,7 +38,10 @@ impl Desk {
             Pending::New | Pending::OpenDialog | Pending::Open(_) | Pending::OpenScene(_) | Pending::OpenLink(_) => {
                 edits().into_iter().chain(study()).chain(transient_run()).collect()
             }
-            Pending::Quit => edits().into_iter().chain(study()).chain(self.tabs.training.work.unkept()).collect(),
+            Pending::Quit => {
+                let tabs = study().into_iter().chain(transient_run()).chain(self.tabs.training.work.unkept());
+                edits().into_iter().chain(tabs).collect()
+            }
             Pending::Train => self.tabs.training.work.replaced(),
             Pending::DiscardTraining => {
                 let solutions = self.tabs.training.work.unfinished.as_ref().map_or(0, |state| state.solutions());

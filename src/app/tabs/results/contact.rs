@@ -223,11 +223,11 @@ fn table_ui(ui: &mut Ui, picture: &Picture, full: Option<&Picture>, system: Unit
         }
         ui.end_row();
         let full_quantities = full.map(|full| quantities(full, system)).unwrap_or_default();
-        for (k, Quantity { name, tip, value, with_unit, .. }) in quantities(picture, system).into_iter().enumerate() {
+        for Quantity { name, symbol, tip, value, with_unit } in quantities(picture, system) {
             ui.label(rich(name, 13.5, text)).on_hover_text(tip);
             ui.strong(numbers::significant(value)).on_hover_text(tip);
             ui.label(with_unit);
-            if let Some(full_value) = full_quantities.get(k).map(|quantity| quantity.value) {
+            if let Some(full_value) = value_of(symbol, &full_quantities) {
                 ui.label(numbers::significant(full_value)).on_hover_text(tip);
                 // A full value that is zero up to rounding has no relative deviation.
                 let nonzero = full_value.abs() > ROUNDING;
@@ -239,6 +239,12 @@ fn table_ui(ui: &mut Ui, picture: &Picture, full: Option<&Picture>, system: Unit
     });
 }
 
+/// Returns the value of a quantity. `None` if the picture does not have it: not every thermal contact has a rise in the
+/// spike.
+fn value_of(symbol: &str, quantities: &[Quantity]) -> Option<f64> {
+    quantities.iter().find(|quantity| quantity.symbol == symbol).map(|quantity| quantity.value)
+}
+
 /// Returns the table as CSV. `None` without a picture.
 pub fn csv(context: &Context<'_>) -> Option<String> {
     let (picture, full) = columns(context)?;
@@ -246,10 +252,24 @@ pub fn csv(context: &Context<'_>) -> Option<String> {
     titles.extend(full.map(|_| "full"));
     let mut table = Table::new("contact", &titles);
     let of = |picture| quantities(picture, context.system);
-    let columns: Vec<Vec<Quantity>> = [Some(picture), full].into_iter().flatten().map(of).collect();
-    for (k, Quantity { symbol, .. }) in of(picture).into_iter().enumerate() {
+    let full_quantities = full.map(of);
+    for Quantity { symbol, value, .. } in of(picture) {
         table.labels.push(symbol.to_owned());
-        table.rows.push(columns.iter().filter_map(|column| Some(column.get(k)?.value)).collect());
+        let full = full_quantities.as_ref().map(|full| value_of(symbol, full).unwrap_or(f64::NAN));
+        table.rows.push(std::iter::once(value).chain(full).collect());
     }
     Some(format!("# {}\n# {}\n{}", describe(picture), context.answers.means(), table.to_csv()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quantities_are_paired_by_their_names() {
+        let of = |symbol, value| Quantity { name: "", symbol, tip: "", value, with_unit: String::new() };
+        let full = [of("mid_film_rise_k", 30.0), of("heat_into_body_1", 0.4)];
+        assert_eq!(value_of("heat_into_body_1", &full), Some(0.4));
+        assert_eq!(value_of("mid_film_rise_in_spike_k", &full), None);
+    }
 }
