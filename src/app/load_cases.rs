@@ -1,5 +1,5 @@
-//! Window of load cases. The user pastes or opens a table, the window checks its lines, and a study of the Results
-//! tab solves all of them.
+//! Window in which the user pastes or opens a table of load cases, one contact per line. It checks the lines and starts
+//! a study that solves all of them and shows the results in the Results tab.
 
 use super::command::Command;
 use super::context::Commands;
@@ -17,39 +17,47 @@ use std::sync::Arc;
 /// Example table.
 const EXAMPLE: &str = include_str!("../../scenes/load_cases/rollers_and_balls.csv");
 /// Maximum number of refused lines listed in the window. The results list all of them.
-const NAMED: usize = 50;
-/// Height of the number of contacts with the refused lines, and of these lines.
-const READING: f32 = 100.0;
-const REFUSED: f32 = 72.0;
+const MOST_LISTED: usize = 50;
+/// Height of the area below the table: the number of valid contacts and the list of refused lines.
+const CHECK_HEIGHT: f32 = 100.0;
+/// Maximum height of the list of refused lines.
+const REFUSED_HEIGHT: f32 = 72.0;
 
 /// Window of load cases with its table.
 pub struct LoadCasesWindow {
     open: bool,
+    /// Table as text.
     text: String,
+    /// True to solve the contacts in full.
     full: bool,
+    /// True to solve the contacts by the built-in reduced model.
     reduced: bool,
-    read: Option<Reading>,
+    /// Parsed table. `None` if the text is empty.
+    parsed: Option<ParsedTable>,
 }
 
-/// Table as it was parsed for a document.
-struct Reading {
+/// Result of parsing a table. It is valid for one text and one document.
+struct ParsedTable {
     text: String,
+    /// Document whose contact provides missing quantities.
     document: Document,
+    /// Load cases, each with its request or the reason why its line is refused.
     cases: Result<Vec<LoadCase>, CasesError>,
 }
 
 impl Default for LoadCasesWindow {
     fn default() -> Self {
-        Self { open: false, text: String::new(), full: true, reduced: false, read: None }
+        Self { open: false, text: String::new(), full: true, reduced: false, parsed: None }
     }
 }
 
 impl LoadCasesWindow {
-    /// Returns true if the window is open. Escape then closes it.
+    /// Returns true if the window is open.
     pub fn is_open(&self) -> bool {
         self.open
     }
 
+    /// Opens the window with its last table.
     pub fn open(&mut self) {
         self.open = true;
     }
@@ -65,10 +73,10 @@ impl LoadCasesWindow {
         self.open = false;
     }
 
-    /// Reads the table from a file.
+    /// Reads the table from a file. Does not open the window.
     ///
     /// # Errors
-    /// A sentence if the file cannot be read.
+    /// If the file cannot be read.
     pub fn read(&mut self, path: &Path) -> Result<(), Refusal> {
         if let CaseTable::Text(text) = CaseTable::pasted(path)? {
             self.text = text;
@@ -84,17 +92,18 @@ impl LoadCasesWindow {
         let size = vec2(0.6 * room.x, 0.65 * room.y);
         window.default_size(size).max_size(0.9 * room).default_pos(room.to_pos2() * 0.15).show(ctx, |ui| {
             self.table_ui(ui, commands);
-            // The buttons stay where they are while the table is typed.
-            let size = vec2(ui.available_width(), READING);
+            // The area has a fixed height, so that the buttons below do not move while the user types.
+            let size = vec2(ui.available_width(), CHECK_HEIGHT);
             ui.allocate_ui_with_layout(size, Layout::top_down(Align::LEFT), |ui| {
-                ui.set_min_height(READING);
-                self.reading_ui(ui, document);
+                ui.set_min_height(CHECK_HEIGHT);
+                self.check_ui(ui, document);
             });
             self.solve_ui(ui, document, commands);
         });
         self.open &= open;
     }
 
+    /// Draws the instructions, the buttons that fill or clear the table, and the editable table.
     fn table_ui(&mut self, ui: &mut Ui, commands: &mut Commands) {
         ui.label(
             "One line of titles, then one contact per line. Open a CSV file, or paste cells from a spreadsheet. Units \
@@ -121,45 +130,48 @@ impl LoadCasesWindow {
         });
     }
 
-    /// Draws the refusals of the table, line by line.
-    fn reading_ui(&mut self, ui: &mut Ui, document: &Document) {
+    /// Parses the table if it has changed. Draws the number of valid contacts and the refused lines with reasons.
+    fn check_ui(&mut self, ui: &mut Ui, document: &Document) {
         if self.text.trim().is_empty() {
-            self.read = None;
+            self.parsed = None;
             return;
         }
-        let kept = self.read.take().filter(|kept| kept.text == self.text && kept.document == *document);
-        let read = self.read.insert(kept.unwrap_or_else(|| {
+        let kept = self.parsed.take().filter(|kept| kept.text == self.text && kept.document == *document);
+        let parsed = self.parsed.insert(kept.unwrap_or_else(|| {
             let experiment = scene(document, String::new(), Vec::new()).experiment();
             let cases = CaseTable::Text(self.text.clone()).cases(&experiment, &|path| path.to_owned());
-            Reading { text: self.text.clone(), document: document.clone(), cases }
+            ParsedTable { text: self.text.clone(), document: document.clone(), cases }
         }));
-        match &read.cases {
+        match &parsed.cases {
             Err(refused) => message_ui(ui, &refused.to_string()),
             Ok(cases) => {
                 let bad: Vec<_> = cases.iter().filter_map(|case| Some((case, case.request.as_ref().err()?))).collect();
                 let color = if bad.is_empty() { Palette::of(ui).verified } else { Palette::of(ui).warning };
                 let good = cases.len() - bad.len();
                 ui.colored_label(color, format!("{good} contacts can be solved, {} lines are refused", bad.len()));
-                ScrollArea::vertical().id_salt("refused lines").max_height(REFUSED).auto_shrink([false, true]).show(
-                    ui,
-                    |ui| {
-                        for (LoadCase { line, name, .. }, why) in bad.into_iter().take(NAMED) {
+                ScrollArea::vertical()
+                    .id_salt("refused lines")
+                    .max_height(REFUSED_HEIGHT)
+                    .auto_shrink([false, true])
+                    .show(ui, |ui| {
+                        for (LoadCase { line, name, .. }, why) in bad.into_iter().take(MOST_LISTED) {
                             let name = if name.is_empty() { String::new() } else { format!(" ({name})") };
                             warning_ui(ui, &format!("Line {line}{name}: {why}"));
                         }
-                    },
-                );
+                    });
             }
         }
     }
 
+    /// Returns the methods that the user selected.
     fn methods(&self) -> Vec<Method> {
         let methods = [(self.full, Method::Full), (self.reduced, Method::EMBEDDED)];
         methods.into_iter().filter_map(|(wanted, method)| wanted.then_some(method)).collect()
     }
 
+    /// Draws the choice of methods, and the buttons that solve the table or open it as a scene.
     fn solve_ui(&mut self, ui: &mut Ui, document: &Document, commands: &mut Commands) {
-        let cases = self.read.as_ref().and_then(|read| read.cases.as_ref().ok());
+        let cases = self.parsed.as_ref().and_then(|parsed| parsed.cases.as_ref().ok());
         let good = cases.map_or(0, |cases| cases.iter().filter(|case| case.request.is_ok()).count());
         ui.horizontal(|ui| {
             ui.add(Checkbox::new(&mut self.full, "Full")).on_hover_text("Full solutions, as `solve` returns them");
@@ -181,7 +193,8 @@ impl LoadCasesWindow {
     }
 }
 
-/// Returns the load cases of a scene with the missing quantities of another document.
+/// Returns a scene with the title and the study of `of`. Quantities that its load cases do not state are those of the
+/// document's contact.
 pub fn scene_like(document: &Document, of: &Scene) -> Scene {
     Scene { title: of.title.clone(), study: of.study.clone(), ..scene(document, String::new(), Vec::new()) }
 }

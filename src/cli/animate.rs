@@ -1,4 +1,5 @@
-//! Option `--animate` of `run`: an animation of a transient scene or of a sweep.
+//! Option `--animate` of the command `run`: runs a scene and writes an animated PNG. The animation shows the first full
+//! march of a transient study, or the contacts of a sweep over one quantity.
 
 use super::failure::Failure;
 use super::output::ProgressLine;
@@ -10,7 +11,7 @@ use crate::solver::training::TrainingObserver;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 
-/// Refuses scenes that have no animation.
+/// Refuses several scenes, and studies that cannot be animated.
 pub(super) fn check(scenes: &[Scene]) -> Result<(), Failure> {
     match scenes {
         [Scene { study: Study::Transient(_), .. }] => Ok(()),
@@ -23,27 +24,28 @@ pub(super) fn check(scenes: &[Scene]) -> Result<(), Failure> {
     }
 }
 
-/// Runs a scene and writes its first full march, or the contacts of its sweep, as an animated PNG.
+/// Runs a scene, writes its animation to `file` and returns the outcome of the scene. A march is full if the full
+/// solver computes it.
 pub(super) fn run(scene: &Scene, bench: &mut Workbench, file: &Path) -> Result<SceneOutcome, Failure> {
     let observer = Watcher { progress: ProgressLine::new(false), rows: Mutex::default() };
     let outcome = run_scene(scene, bench, &observer);
     let rows = std::mem::take(&mut *observer.rows.lock().unwrap_or_else(PoisonError::into_inner));
     let drawn = outcome.and_then(|outcome| {
         if matches!(scene.study, Study::Sweep(_)) {
-            let film = of_sweep(scene, bench, false, &observer)?;
-            return Ok((outcome, film));
+            let animation = of_sweep(scene, bench, false, &observer)?;
+            return Ok((outcome, animation));
         }
         let march = full_march(&rows).ok_or_else(|| EngineError::Study("the run has no fields to draw".to_owned()))?;
-        let film = of_march(&march, false, &observer.progress);
-        Ok((outcome, film.map_err(|why| EngineError::Study(why.to_string()))?))
+        let animation = of_march(&march, false, &observer.progress);
+        Ok((outcome, animation.map_err(|why| EngineError::Study(why.to_string()))?))
     });
     observer.progress.finish();
-    let (outcome, film) = drawn?;
-    atomic_file::replace(file, &film)?;
+    let (outcome, animation) = drawn?;
+    atomic_file::replace(file, &animation)?;
     Ok(outcome)
 }
 
-/// Observer that keeps the rows with their fields.
+/// Observer that shows the progress and collects the rows of the study, including the fields of transient contacts.
 struct Watcher {
     progress: ProgressLine,
     rows: Mutex<Vec<StudyRow>>,

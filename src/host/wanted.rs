@@ -1,16 +1,16 @@
-//! Request to a file dialog, for native programs and web pages.
+//! Request to a file dialog. The native program and the web page have separate dialogs that take the same request.
 
 use std::path::PathBuf;
 
 /// Request to a file dialog.
 #[derive(Clone, Debug)]
 pub struct Wanted {
-    /// True if a file is to be read.
+    /// True to choose an existing file that is read, false to choose a file that is written.
     pub reads: bool,
-    /// Name of this type of file.
+    /// Name of the type of file, shown in the dialog.
     pub files: &'static str,
     /// Accepted file extensions.
     pub endings: &'static [&'static str],
-    /// Suggested path.
+    /// Suggested path of the file.
     pub suggestion: PathBuf,
 }

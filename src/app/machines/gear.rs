@@ -1,4 +1,4 @@
-//! Form of a gear pair.
+//! Input form of a gear pair in the machine window. Each row of the form edits one parameter of a [`GearPair`].
 
 use super::field::{DEGREE, Field, LENGTH, NUMBER, RPM, whole};
 use crate::app::controls::Entries;
@@ -7,6 +7,7 @@ use crate::solver::physics::machines::GearPair;
 use egui::Ui;
 use std::f64::consts::PI;
 
+/// Rows of the form, from top to bottom.
 const FIELDS: [Field<GearPair>; 11] = [
     Field {
         name: "Teeth of the pinion",
@@ -109,7 +110,7 @@ const FIELDS: [Field<GearPair>; 11] = [
     },
 ];
 
-/// Draws the values of a gear pair. Returns true if one was changed.
+/// Draws the form of a gear pair. Returns true if the user changed a value.
 pub(super) fn ui(ui: &mut Ui, pair: &mut GearPair, entries: &mut Entries) -> bool {
     let before = *pair;
     for field in &FIELDS {
@@ -118,7 +119,7 @@ pub(super) fn ui(ui: &mut Ui, pair: &mut GearPair, entries: &mut Entries) -> boo
     *pair != before
 }
 
-/// Names of the fields, for their messages.
+/// Returns the accessible names of the rows, by which the window finds the messages about typed values.
 pub(super) fn names() -> impl Iterator<Item = &'static str> {
     FIELDS.iter().map(|field| field.name)
 }

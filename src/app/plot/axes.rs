@@ -1,4 +1,5 @@
-//! Common style of all plots: faint grid, round ticks, logarithmic axes as transformed data.
+//! Common style of all plots: size of titles, spacing, grid marks and axis labels. On a logarithmic axis the plotted
+//! data are decimal logarithms, and marks and labels are computed from them.
 
 use crate::app::figure::Canvas;
 use crate::app::numbers;
@@ -7,27 +8,28 @@ use crate::app::theme::Palette;
 use egui::{Rangef, Ui, Vec2, Vec2b, vec2};
 use egui_plot::{AxisHints, GridInput, GridMark, Plot, PlotPoint, PlotResponse};
 
-/// Size of axis titles.
+/// Font size of axis titles, in screen points.
 pub const TITLE_SIZE: f32 = 12.5;
 
-/// Width of a number below an axis. Numbers that are closer together are omitted.
-const LABEL_ROOM: f32 = 80.0;
+/// Width of the plot per mark of the horizontal axis, in screen points.
+const WIDTH_PER_MARK: f32 = 80.0;
 
-/// Minimum space for a number to be shown.
-const NUMBER_ROOM: Vec2 = vec2(60.0, 20.0);
+/// Minimum distance between labelled marks of the horizontal and of the vertical axis, in screen points. Marks that are
+/// closer together have no labels.
+const LABEL_SPACING: Vec2 = vec2(60.0, 20.0);
 
-/// Number of points of a curve above which only the extremes of neighbouring points are drawn.
+/// Number of points of a curve above which [`thinned`] reduces it.
 const MOST_POINTS: usize = 3000;
 
-/// Creates a plot in the style of the explorer. Its axis titles may contain symbols (see `rich`); an empty title is
-/// omitted.
+/// Creates a plot in the style of the explorer. `id` must be unique in the window, `height` is in screen points. Axis
+/// titles may contain symbols (see `rich`); an empty title is omitted.
 pub fn plot<'a>(ui: &Ui, id: &str, height: f32, x_title: &str, y_title: &str) -> PlotFrame<'a> {
-    let columns = f64::from(ui.available_width() / LABEL_ROOM).clamp(2.0, 9.0);
-    // A number is either shown fully or omitted, never faint.
+    let columns = f64::from(ui.available_width() / WIDTH_PER_MARK).clamp(2.0, 9.0);
+    // With a range of this small width, the toolkit draws a label opaque or not at all, never faint.
     let spaced = |axis: AxisHints<'a>, room: f32| vec![axis.label_spacing(Rangef::new(room, room + 0.1))];
     let plot = Plot::new(id)
-        .custom_x_axes(spaced(AxisHints::new_x(), NUMBER_ROOM.x))
-        .custom_y_axes(spaced(AxisHints::new_y(), NUMBER_ROOM.y))
+        .custom_x_axes(spaced(AxisHints::new_x(), LABEL_SPACING.x))
+        .custom_y_axes(spaced(AxisHints::new_y(), LABEL_SPACING.y))
         .height(height)
         .grid_color(Palette::of(ui).grid)
         .allow_scroll(false)
@@ -35,7 +37,7 @@ pub fn plot<'a>(ui: &Ui, id: &str, height: f32, x_title: &str, y_title: &str) ->
     PlotFrame::new(ui, plot, [x_title, y_title], [columns, 6.0])
 }
 
-/// Draws a plot under its accessible name, which is also its name in the export.
+/// Draws a plot. `name` is its accessible name and its name in the export.
 pub fn show<'a, R>(
     plot: PlotFrame<'a>,
     ui: &mut Ui,
@@ -45,8 +47,8 @@ pub fn show<'a, R>(
     plot.show(ui, name, content)
 }
 
-/// Fits a plot to its data if `wanted` is true and when it is first visible. Zooming and panning end the fit, and a
-/// double click restores it. Locked axes are fitted only if `wanted` is true.
+/// Fits the axes of a plot to its data if `wanted` is true, and when the plot is visible for the first time. Locked
+/// axes are fitted only if `wanted` is true. Zooming and panning end the fit, and a double click restores it.
 pub fn fit(plot: &mut Canvas<'_, '_>, wanted: bool) {
     let id = plot.response().id.with("seen");
     let seen = plot.ctx().data_mut(|d| std::mem::replace(d.get_temp_mut_or_default::<bool>(id), true));
@@ -55,7 +57,8 @@ pub fn fit(plot: &mut Canvas<'_, '_>, wanted: bool) {
     }
 }
 
-/// Returns the label of a number on an axis.
+/// Returns the label of a number on a linear axis, with at most nine decimals, or in the form 2e9 if it is very large
+/// or small.
 pub fn tick(value: f64) -> String {
     let rounded = (value * 1e12).round() / 1e12;
     let text = match rounded.abs() {
@@ -66,7 +69,7 @@ pub fn tick(value: f64) -> String {
     text.replace('-', "−")
 }
 
-/// Returns marks at 1, 2 or 5 times a power of ten, about `target` of them, with four faint ones in between.
+/// Returns marks of a linear axis at multiples of 1, 2 or 5 times a power of ten, at most about `target` of them.
 pub fn round_marks(input: GridInput, target: f64) -> Vec<GridMark> {
     let (low, high) = input.bounds;
     let wanted = (high - low) / target;
@@ -79,7 +82,7 @@ pub fn round_marks(input: GridInput, target: f64) -> Vec<GridMark> {
     (first..=last).map(|k| GridMark { value: k as f64 * step, step_size: step }).collect()
 }
 
-/// Returns marks of an axis of log10 values: decades, at most about `most` of them.
+/// Returns marks of a logarithmic axis over many decades: one for each n-th decade, at most about `most` of them.
 pub fn few_decade_marks(input: GridInput, most: f64) -> Vec<GridMark> {
     let (low, high) = input.bounds;
     if !(low.is_finite() && high.is_finite() && high > low && high - low < 400.0) {
@@ -90,6 +93,7 @@ pub fn few_decade_marks(input: GridInput, most: f64) -> Vec<GridMark> {
     (first..=last).map(|k| GridMark { value: k as f64 * stride, step_size: stride }).collect()
 }
 
+/// Returns the label of a mark at a whole decade.
 pub fn decade_label(mark: GridMark) -> String {
     match mark.value.round() as i32 {
         e @ -3..=4 => tick(10f64.powi(e)),
@@ -97,7 +101,8 @@ pub fn decade_label(mark: GridMark) -> String {
     }
 }
 
-/// Returns marks of a logarithmic axis over few decades: decades strong, 2…9 faint.
+/// Returns marks of a logarithmic axis over few decades: strong ones at the decades, faint ones at 2…9 times a decade.
+/// Empty above twelve decades.
 pub fn log_marks(input: GridInput) -> Vec<GridMark> {
     let (low, high) = input.bounds;
     if !(low.is_finite() && high.is_finite()) || high - low > 12.0 {
@@ -114,7 +119,7 @@ pub fn log_marks(input: GridInput) -> Vec<GridMark> {
         .collect()
 }
 
-/// Returns the label at 1, 2, 5, 10, 20, 50 … of such an axis.
+/// Returns the label of a mark of [`log_marks`]. It is empty except at 1, 2 and 5 times a decade.
 pub fn log_label(mark: GridMark) -> String {
     let value = 10f64.powf(mark.value);
     let leading = value / 10f64.powf((mark.value + 1e-9).floor());
@@ -122,7 +127,8 @@ pub fn log_label(mark: GridMark) -> String {
     if near(1.0) || near(2.0) || near(5.0) { numbers::digits(value, 1) } else { String::new() }
 }
 
-/// Returns at most as many points as a screen can show, with all extremes.
+/// Reduces a long curve to about 3000 points. Of each group of neighbouring points only the lowest and the highest
+/// remain, so that no extreme is lost.
 pub fn thinned(points: Vec<PlotPoint>) -> Vec<PlotPoint> {
     if points.len() <= MOST_POINTS {
         return points;

@@ -1,4 +1,5 @@
-//! Exports of a tab, in a menu at the same place of each tab.
+//! Export menu of a tab. Every tab has it at the same place. It contains a figure, the exports that the tab offers, and
+//! reports of the contact.
 
 use crate::app::command::Command;
 use crate::app::context::Commands;
@@ -9,21 +10,25 @@ use crate::engine::arrays::{Array, npz};
 use crate::scene::ReportFormat;
 use egui::{Button, Ui};
 
-/// Export with its name and a function that makes it. `None` if there is nothing to export yet.
+/// Export that a tab offers in its menu.
 pub struct Offer<'a> {
+    /// Label in the menu.
     name: &'static str,
+    /// Tooltip.
     tip: &'static str,
+    /// Returns the command that exports the data. `None` if there is nothing to export yet.
     make: Option<Box<dyn Fn() -> Command + 'a>>,
 }
 
 impl<'a> Offer<'a> {
-    /// Creates an export from a function that returns its command.
+    /// Creates an export. `make` returns its command; `None` disables the entry.
     pub fn new(name: &'static str, tip: &'static str, make: Option<impl Fn() -> Command + 'a>) -> Self {
         let make = make.map(|make| Box::new(make) as Box<dyn Fn() -> Command + 'a>);
         Self { name, tip, make }
     }
 
-    /// Creates an export of arrays for numpy.
+    /// Creates an export of arrays in the file format npz of NumPy. `arrays` computes them from `of`; if that is
+    /// `None`, the entry is disabled.
     pub fn arrays<T: 'a>(
         name: &'static str,
         tip: &'static str,
@@ -34,7 +39,7 @@ impl<'a> Offer<'a> {
         Self::new(name, tip, of.map(|of| move || write(arrays(&of))))
     }
 
-    /// Creates an export of a table.
+    /// Creates an export of a CSV table. `text` computes it from `of`; if that is `None`, the entry is disabled.
     pub fn table<T: 'a>(
         name: &'static str,
         tip: &'static str,
@@ -45,11 +50,11 @@ impl<'a> Offer<'a> {
     }
 }
 
-/// Draws the menu of a tab. Its entries are computed only while it is open.
+/// Draws the export menu of a tab. `offers` is called only while the menu is open.
 pub fn menu<'a>(ui: &mut Ui, tab: Tab, offers: impl FnOnce() -> Vec<Offer<'a>>, commands: &mut Commands) {
     let shown = ui.menu_button("Export", |ui| {
-        let item = |ui: &mut Ui, name: &str, tip: &str, there: bool| {
-            let response = ui.add_enabled(there, Button::new(name)).on_hover_text(tip);
+        let item = |ui: &mut Ui, name: &str, tip: &str, enabled: bool| {
+            let response = ui.add_enabled(enabled, Button::new(name)).on_hover_text(tip);
             let clicked = response.on_disabled_hover_text("Not available yet").clicked();
             if clicked {
                 ui.close();

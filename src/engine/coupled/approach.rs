@@ -1,10 +1,13 @@
 //! Load of a contact at a given approach of its bodies: a force element for multibody programs.
 //!
-//! Between the smallest and the largest trained load, the load is found by solves. Beyond them it follows power laws
-//! with the value and the slope at the last trained load, so that bodies may separate, fall back and press harder. A
-//! wide gap carries w ∝ s^(−n) at the separation s (rigid bodies, constant viscosity), with n = 1 for a line and 1/2
-//! for a point contact. A heavily loaded contact carries w ∝ δ^(3/2) at the approach δ for a point contact (Hertz) and
-//! nearly w ∝ δ^(10/9) for a line contact (Palmgren).
+//! Within the trained loads, a search varies the load w until the solved contact has the given approach δ. Beyond the
+//! smallest and the largest trained load, w follows a power law that continues value and slope there. Bodies may thus
+//! separate, fall back and press harder than trained.
+//!
+//! - A wide gap (rigid bodies, constant viscosity) carries w ∝ s^(−n) at the separation s, with n = 1 for a line
+//!   contact and 1/2 for a point contact.
+//! - A heavily loaded contact carries w ∝ δ^(3/2) for a point contact (Hertz), and nearly w ∝ δ^(10/9) for a line
+//!   contact (Palmgren).
 //!
 //! The load depends on the current inputs only. Over a closed cycle the element does no work.
 
@@ -16,46 +19,53 @@ use crate::solver::reduced::Trust;
 use crate::solver::warning::Warning;
 use std::f64::consts::TAU;
 
-/// Tolerance of the approach in the search, relative to the approaches of the trained loads.
-const FOUND: f64 = 1e-13;
-/// Largest number of solves of the search.
+/// Tolerance of the approach in the search, relative to the larger of the approaches at both ends.
+const APPROACH_TOLERANCE: f64 = 1e-13;
+/// Maximum number of solves of the search.
 const MOST_SOLVES: usize = 60;
-/// Number of loads at which the trained range is looked up, and of bisections of its ends.
-const LOOKED_UP: usize = 200;
+/// Number of intervals into which the loads of the model's range of M are divided. Whether the model is trained is
+/// checked at the ends of these intervals.
+const INTERVALS: usize = 200;
+/// Number of bisections by which each end of the trained loads is located between two of these loads.
 const BISECTIONS: usize = 45;
-/// Relative difference of the loads from which the slope at an end is computed.
-const DIFFERENCE: f64 = 1e-2;
+/// Relative difference of the two loads from which the slope at an end is computed.
+const LOAD_DIFFERENCE: f64 = 1e-2;
 
-/// Hertzian pressure of a contact from which the trained loads are looked up \[Pa\].
+/// Hertzian pressure of the contact with which the search for the trained loads begins \[Pa\].
 const USUAL_PRESSURE: f64 = 5e8;
 
-/// Trained loads of a contact with given inputs.
+/// Trained loads of a contact with given inputs, and the solutions at both ends.
 pub(super) struct Reach {
-    /// Inputs, with the approach 0 and a usual load.
+    /// Inputs for which it was computed. Their approach is 0 and their load a usual one, because it depends on neither.
     inputs: Inputs,
-    /// Smallest and largest load.
+    /// Contacts under the smallest and under the largest trained load.
     ends: [End; 2],
 }
 
-/// Contact at an end of the trained loads.
+/// Contact under the smallest or under the largest trained load.
 #[derive(Clone)]
 pub(super) struct End {
+    /// Load w \[N/m\] or \[N\].
     pub load: f64,
+    /// Approach δ \[m\].
     approach_m: f64,
-    /// Load over its slope by the approach \[m\].
+    /// w/(dw/dδ): load divided by its derivative with respect to the approach \[m\].
     pub length_m: f64,
+    /// All outputs of the contact.
     outputs: Outputs,
 }
 
-/// Smallest or largest trained load.
+/// Side of the trained loads.
 #[derive(Clone, Copy)]
 enum Side {
+    /// Smallest trained load.
     Low,
+    /// Largest trained load.
     High,
 }
 
 impl Side {
-    /// Returns the value of this side.
+    /// Selects the value of this side.
     fn of<T>(self, [low, high]: [T; 2]) -> T {
         match self {
             Self::Low => low,
@@ -65,7 +75,7 @@ impl Side {
 }
 
 impl Reach {
-    /// Returns the end that an approach is beyond; `None` if it is between both.
+    /// Returns the end beyond which an approach \[m\] lies. `None` if the approach lies between both ends.
     fn beyond(&self, wanted: f64) -> Option<(Side, &End)> {
         let [low, high] = &self.ends;
         if wanted <= low.approach_m {
@@ -75,23 +85,24 @@ impl Reach {
     }
 }
 
-/// One of the two ends, for an approach beyond it.
+/// End of the trained loads beyond which an approach lies.
 pub(super) struct Beyond {
     pub end: End,
-    /// Factor of the load from which the slope at the end is computed.
+    /// Factor from the load of the end to the second load from which its slope is computed.
     pub inwards: f64,
     side: Side,
 }
 
-/// Factors of the loads at both ends from which their slopes are computed.
-const INWARDS: [f64; 2] = [1.0 + DIFFERENCE, 1.0 / (1.0 + DIFFERENCE)];
+/// Factors from the smallest and from the largest trained load to the second load from which the slope is computed.
+const INWARDS: [f64; 2] = [1.0 + LOAD_DIFFERENCE, 1.0 / (1.0 + LOAD_DIFFERENCE)];
 
-/// Exponents of the load in the separation of a wide gap, and in the approach of a heavily loaded contact.
+/// Returns the exponents of the power laws beyond the smallest and beyond the largest trained load: that of the
+/// separation in a wide gap, and that of the approach of a heavily loaded contact.
 fn exponents(kind: ContactKind) -> [f64; 2] {
     if kind.is_line() { [-1.0, 10.0 / 9.0] } else { [-0.5, 1.5] }
 }
 
-/// Returns a load of usual size: about that of [`USUAL_PRESSURE`]. The load of the inputs is not used.
+/// Returns the load with a Hertzian pressure of about [`USUAL_PRESSURE`]. The load of the inputs is not used.
 fn usual_load(inputs: &Inputs, kind: ContactKind) -> f64 {
     let (radius, modulus) = (inputs.radius_m, inputs.modulus_pa);
     if kind.is_line() {
@@ -102,7 +113,10 @@ fn usual_load(inputs: &Inputs, kind: ContactKind) -> f64 {
 }
 
 impl End {
-    /// Returns the end with these outputs. Those of `inner` are under a load `inwards` times as large.
+    /// Creates the end with these outputs. `inner` are the outputs under `inwards` times its load.
+    ///
+    /// # Errors
+    /// If the approach does not increase with the load.
     pub fn of(outputs: Outputs, inner: &Outputs, inwards: f64) -> Result<Self, CoupledError> {
         // ln w is closer to a straight line than w.
         let length_m = (inner.approach_m - outputs.approach_m) / inwards.ln();
@@ -112,22 +126,22 @@ impl End {
         Ok(Self { load: outputs.load, approach_m: outputs.approach_m, length_m, outputs })
     }
 
-    /// Returns the outputs at an approach beyond this end; `exponent` is that of the load.
+    /// Extrapolates the outputs to an approach beyond this end by the power law of the load with the given exponent.
     fn beyond(&self, wanted: f64, exponent: f64, kind: ContactKind) -> Outputs {
-        let further = wanted - self.approach_m;
-        let ratio = (1.0 + further / (exponent * self.length_m)).powf(exponent);
-        let dry = kind.hertz_root(ratio);
-        // In an opening gap the film grows with the separation.
-        let film = (-further).max(0.0);
+        let excess = wanted - self.approach_m;
+        let ratio = (1.0 + excess / (exponent * self.length_m)).powf(exponent);
+        let hertz_ratio = kind.hertz_root(ratio);
+        // If the bodies separate, the film thickness grows by the same distance.
+        let opening = (-excess).max(0.0);
         let mut outputs = self.outputs.clone();
         outputs.load *= ratio;
         outputs.friction_force *= ratio;
-        outputs.half_width_m *= dry;
-        outputs.hertz_pressure_pa *= dry;
+        outputs.half_width_m *= hertz_ratio;
+        outputs.hertz_pressure_pa *= hertz_ratio;
         outputs.approach_m = wanted;
-        outputs.film_ratio_min += film * outputs.film_ratio_min / outputs.h_min_m;
-        outputs.h_c_m += film;
-        outputs.h_min_m += film;
+        outputs.film_ratio_min += opening * outputs.film_ratio_min / outputs.h_min_m;
+        outputs.h_c_m += opening;
+        outputs.h_min_m += opening;
         outputs.error_bounds = [f64::NAN; 3];
         outputs.trained = false;
         outputs.warnings.push(Warning::LoadExtrapolated { load: outputs.load, last: self.load });
@@ -136,7 +150,7 @@ impl End {
 }
 
 impl Beyond {
-    /// Returns the outputs at an approach beyond a state of this end.
+    /// Returns the outputs at an approach beyond `end`, which is this end for the same or for slightly changed inputs.
     pub fn outputs(&self, end: &End, wanted: f64, kind: ContactKind) -> Outputs {
         end.beyond(wanted, self.side.of(exponents(kind)), kind)
     }
@@ -144,6 +158,9 @@ impl Beyond {
 
 impl Coupled {
     /// Returns the outputs at the approach of the inputs.
+    ///
+    /// # Errors
+    /// If the approach is not finite, or if no load with this approach is found.
     pub(super) fn approached(&mut self, inputs: &Inputs) -> Result<Outputs, CoupledError> {
         check("approach", inputs.approach_m, " m", ("", |_| true))?;
         let reach = self.take_reach(inputs)?;
@@ -152,7 +169,8 @@ impl Coupled {
         found
     }
 
-    /// Returns the end of the trained loads that the approach of the inputs is beyond; `None` if it is between them.
+    /// Returns the end of the trained loads beyond which the approach of the inputs lies. `None` if the approach lies
+    /// between both ends.
     pub(super) fn beyond(&mut self, inputs: &Inputs) -> Result<Option<Beyond>, CoupledError> {
         let reach = self.take_reach(inputs)?;
         let found = reach.beyond(inputs.approach_m);
@@ -161,18 +179,19 @@ impl Coupled {
         Ok(found)
     }
 
-    /// Returns the load of an end for other inputs.
+    /// Returns the trained load at this end for other inputs.
     pub(super) fn load_of(&self, beyond: &Beyond, inputs: &Inputs) -> Result<f64, CoupledError> {
         let (low, high) = self.trained_loads(&self.given(inputs))?;
         Ok(beyond.side.of([low, high]))
     }
 
-    /// Returns the inputs without load and approach, on which the trained loads depend.
+    /// Returns the inputs with the approach 0 and a usual load. The trained loads depend on all other inputs only.
     fn given(&self, inputs: &Inputs) -> Inputs {
         Inputs { approach_m: 0.0, load: usual_load(inputs, self.model.contact()), ..*inputs }
     }
 
-    /// Returns the trained loads for some inputs: the stored ones, or new ones.
+    /// Returns the trained loads for some inputs. Takes the stored ones out of `self`, or computes them if they belong
+    /// to other inputs.
     fn take_reach(&mut self, inputs: &Inputs) -> Result<Reach, CoupledError> {
         let given = self.given(inputs);
         match self.reach.take() {
@@ -181,7 +200,7 @@ impl Coupled {
         }
     }
 
-    /// Solves the contacts at the ends of the trained loads.
+    /// Computes the trained loads and solves the contacts at both ends.
     fn reach(&mut self, given: &Inputs) -> Result<Reach, CoupledError> {
         let (low, high) = self.trained_loads(given)?;
         let mut end = |load: f64, inwards: f64| {
@@ -191,8 +210,9 @@ impl Coupled {
         Ok(Reach { inputs: *given, ends: [end(low, INWARDS[0])?, end(high, INWARDS[1])?] })
     }
 
-    /// Returns the smallest and the largest load for which the model is trained; those of its range of M (Moes) if it
-    /// is trained for none.
+    /// Returns the smallest and the largest load for which the model is trained. If there are several intervals of
+    /// trained loads, they are those of the lowest one. If there is none, they are the ends of the model's range of M,
+    /// the Moes load number.
     fn trained_loads(&self, given: &Inputs) -> Result<(f64, f64), CoupledError> {
         let kind = self.model.contact();
         let own = self.request(given, given.load)?.point.moes().m;
@@ -200,17 +220,17 @@ impl Coupled {
             self.model.domain.space.interval(Quantity::M, kind).ok_or(CoupledError::NoLoad(given.approach_m))?;
         // M is proportional to the load.
         let [low, high] = [range.0, range.1].map(|m| given.load * m / own);
-        let load = |k: f64| low * (high / low).powf(k / LOOKED_UP as f64);
+        let load = |k: f64| low * (high / low).powf(k / INTERVALS as f64);
         let trained = |k: f64| {
             let problem = self.request(given, load(k)).ok();
             let problem = problem.and_then(|request| Problem::new(&request.point, request.lubricant).ok());
             problem.is_some_and(|problem| self.model.trust(&problem) == Trust::Trained)
         };
-        let inside: Vec<bool> = (0..=LOOKED_UP).map(|k| trained(k as f64)).collect();
+        let inside: Vec<bool> = (0..=INTERVALS).map(|k| trained(k as f64)).collect();
         let Some(first) = inside.iter().position(|inside| *inside) else { return Ok((low, high)) };
         let last = first + inside.iter().skip(first).take_while(|inside| **inside).count() - 1;
         let end = |mut inner: f64, mut outer: f64| {
-            if !(0.0..=LOOKED_UP as f64).contains(&outer) {
+            if !(0.0..=INTERVALS as f64).contains(&outer) {
                 return load(inner);
             }
             for _ in 0..BISECTIONS {
@@ -222,8 +242,8 @@ impl Coupled {
         Ok((end(first as f64, first as f64 - 1.0), end(last as f64, last as f64 + 1.0)))
     }
 
-    /// Returns the outputs at an approach, given the trained loads. The search is regula falsi in the Illinois variant:
-    /// the value of an end point that is retained twice is halved.
+    /// Returns the outputs at the approach of the inputs, given the trained loads. Between these it searches the load
+    /// by the Illinois variant of regula falsi: if an end point is retained twice in a row, its value is halved.
     fn within(&mut self, reach: &Reach, inputs: &Inputs) -> Result<Outputs, CoupledError> {
         let (wanted, kind) = (inputs.approach_m, self.model.contact());
         let exponents = exponents(kind);
@@ -231,10 +251,10 @@ impl Coupled {
             return Ok(end.beyond(wanted, side.of(exponents), kind));
         }
         let ([low, high], [_, closing]) = (&reach.ends, exponents);
-        // In this power of the load, the approach is nearly a straight line.
+        // The approach is nearly a linear function of this power of the load.
         let place = |end: &End| (end.load.powf(1.0 / closing), end.approach_m - wanted);
         let (mut a, mut b) = (place(low), place(high));
-        let tolerance = FOUND * low.approach_m.abs().max(high.approach_m.abs());
+        let tolerance = APPROACH_TOLERANCE * low.approach_m.abs().max(high.approach_m.abs());
         for _ in 0..MOST_SOLVES {
             let between = b.0 - b.1 * (b.0 - a.0) / (b.1 - a.1);
             let outputs = self.under(inputs, between.powf(closing))?;
@@ -261,7 +281,7 @@ mod tests {
     use crate::engine::embedded;
     use std::sync::Arc;
 
-    /// Returns the unit of an embedded model, inputs, and the trained loads of these inputs.
+    /// Returns the force element of an embedded model, its first inputs, and the trained loads for these inputs.
     fn unit(which: &str) -> (Coupled, Inputs, (f64, f64)) {
         let model = embedded(which).unwrap();
         let inputs = Coupled::first_inputs(&model).unwrap();
@@ -291,7 +311,7 @@ mod tests {
             let approaches = (0..=60).map(|k| ends[0].0 + span * (f64::from(k) / 40.0 - 0.25));
             let loads: Vec<f64> = approaches.map(|approach_m| under(&mut unit, approach_m).load).collect();
             assert!(loads.windows(2).all(|pair| pair[1] > pair[0]), "{which}: {loads:?}");
-            // Wide open, the load vanishes as that of rigid bodies.
+            // In a wide gap the load follows the power law of rigid bodies.
             let [wide, wider] = [1e3, 4e3].map(|times| under(&mut unit, ends[0].0 - times * ends[0].2));
             let wanted = if which == "line" { 4.0 } else { 2.0 };
             assert!((wide.load / wider.load / wanted - 1.0).abs() < 0.01, "{which}: {} {}", wide.load, wider.load);
@@ -307,12 +327,12 @@ mod tests {
         let first = unit.solve(&wanted).unwrap();
         unit.solve(&Inputs { speed_m_per_s: 1.1 * inputs.speed_m_per_s, load: 2.0 * inputs.load, ..wanted }).unwrap();
         let again = unit.solve(&Inputs { load: 0.3 * inputs.load, ..wanted }).unwrap();
-        // As text, because a quantity that the unit does not have is NaN.
+        // Compared as text, because outputs that this model does not have are NaN.
         assert_eq!(format!("{again:?}"), format!("{first:?}"));
     }
 
-    /// Lets a mass fall on the contact and bounce. Returns the work of the contact over the closed cycle and the largest
-    /// potential energy, and the largest load.
+    /// Lets a mass hit the contact and bounce off. Returns the work of the contact over the closed cycle, the largest
+    /// potential energy and the largest load.
     fn impact(
         unit: &mut Coupled,
         inputs: &Inputs,
@@ -333,7 +353,7 @@ mod tests {
             energy = energy.max(work);
             largest = largest.max(force);
         }
-        // Back to the start along the straight line, whose work is known from two loads.
+        // Work of the short way back to the start, by the trapezoidal rule.
         work += (start - approach) * 0.5 * (force + load(start));
         (work, energy, largest)
     }
@@ -350,7 +370,8 @@ mod tests {
             let low = low.unwrap();
             let length = unit.reach.as_ref().unwrap().ends[1].approach_m - low;
             for _ in 0..count {
-                // The kinetic energy compares with the work up to the largest trained load, 2/5 or 1/2 of load × length.
+                // The work up to the largest trained load is about 2/5 (point contact) or 1/2 (line contact) of load ×
+                // length. The kinetic energy is of this size.
                 let energy = (0.05 + 0.6 * random.f64()) * loads.1 * length;
                 let mass = 10f64.powf(-2.0 + 2.0 * random.f64());
                 let speed = (2.0 * energy / mass).sqrt();

@@ -1,5 +1,6 @@
-//! Thread functions of the web page, where WebAssembly has no threads: nothing can be spawned, nothing waits. Work is
-//! done by the caller, or by another instance of the module in a web worker. Also tells whether memory is short.
+//! Thread functions of the web page, with the names of the native ones. WebAssembly has no threads here, so the
+//! functions neither start threads nor wait. Work is done by the caller, or by another instance of the program in a web
+//! worker.
 
 use std::io;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError};
@@ -8,12 +9,12 @@ use std::time::Duration;
 /// True if this process can run work in parallel with the caller.
 pub const THREADS: bool = false;
 
-/// Memory of this instance above which reduced models that can be read again are dropped \[bytes\].
+/// Memory of this instance above which it counts as short \[bytes\].
 const MEMORY_LIMIT: usize = 160 << 20;
-/// Bytes of a page of WebAssembly's memory.
+/// Size of a page of WebAssembly memory \[bytes\].
 const PAGE: usize = 1 << 16;
 
-/// Returns true if memory is short, so that reduced models that can be read again are dropped.
+/// Returns true if memory is short. The caller then frees reduced models that it can read again.
 pub fn is_crowded() -> bool {
     core::arch::wasm32::memory_size::<0>() * PAGE > MEMORY_LIMIT
 }
@@ -32,12 +33,12 @@ pub fn spawn<T: Send + 'static>(
 /// Does nothing, because a page must not sleep.
 pub fn pause(_duration: Duration) {}
 
-/// Returns the next value if it is available. A page must not wait.
+/// Returns the next value if it is available. Does not wait, because that would block the page.
 ///
 /// # Errors
 /// If no value is available, or the channel is closed.
 pub fn receive<T>(values: &Receiver<T>, _timeout: Duration) -> Result<T, RecvTimeoutError> {
-    values.try_recv().map_err(|none| match none {
+    values.try_recv().map_err(|error| match error {
         TryRecvError::Empty => RecvTimeoutError::Timeout,
         TryRecvError::Disconnected => RecvTimeoutError::Disconnected,
     })

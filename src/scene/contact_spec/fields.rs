@@ -1,4 +1,5 @@
-//! Fields of a contact, each defined once: type, name, description, unit, and the interfaces that have it.
+//! Table of the fields that specify a contact, with type, name, description and unit of each, and the interfaces that
+//! accept it. A macro generates [`ContactSpec`] and [`Field`] from the table, so that each field is defined once.
 
 use super::facts::{Facts, Measure};
 use super::given::{Choices, Domain, Given, MethodName, OilGrade, ShearName, ValueError};
@@ -16,7 +17,8 @@ use crate::solver::physics::surfaces::AsperityLaw;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// Generates [`ContactSpec`] and [`Field`] from a table: member, type, field, name, description, further facts.
+/// Generates [`ContactSpec`] and [`Field`] from a table. A row contains the member of the struct, its type, the variant
+/// of the enum, the name, the description, and further members of [`Facts`].
 macro_rules! contact_fields {
     ($($member:ident: $kind:ty, $field:ident, $word:literal, $about:literal, { $($fact:ident: $value:expr),* };)*) => {
         /// Contact as the user stated it. Fields that were not stated are `None`.
@@ -46,7 +48,7 @@ macro_rules! contact_fields {
             /// All fields.
             pub const ALL: &[Self] = &[$(Self::$field),*];
 
-            /// Returns the description of the field.
+            /// Returns name, description, unit and further properties of the field.
             pub const fn facts(self) -> Facts {
                 match self {
                     $(Self::$field => Facts { $($fact: $value,)* ..Facts::new($word, $about) },)*
@@ -60,7 +62,7 @@ macro_rules! contact_fields {
                 }
             }
 
-            /// Number of numbers in a value; 0 if it is not numeric.
+            /// Returns how many numbers a value consists of; 0 if the field is not numeric.
             const fn numbers(self) -> usize {
                 match self {
                     $(Self::$field => <$kind as Given>::NUMBERS,)*
@@ -83,19 +85,22 @@ macro_rules! contact_fields {
                 }
             }
 
-            /// Sets a number in SI units, see [`Self::set_as_typed`]. No effect on fields that are not numbers.
+            /// Sets a number in SI units. No effect on fields that are not numbers. For a number in the unit in which
+            /// users type it, see [`Self::set_as_typed`].
             pub fn set(&mut self, field: Field, value: f64) {
                 match field {
                     $(Field::$field => self.$member = Given::of_number(value).or(self.$member.take()),)*
                 }
             }
 
+            /// Makes a field not stated.
             pub(super) fn forget(&mut self, field: Field) {
                 match field {
                     $(Field::$field => self.$member = None,)*
                 }
             }
 
+            /// Sets a field from a text without a unit; numbers are in SI units.
             pub(super) fn read_plain(&mut self, field: Field, text: &str) -> Result<(), ValueError> {
                 match field {
                     $(Field::$field => self.$member = Some(Given::read(text)?),)*
@@ -235,7 +240,7 @@ contact_fields! {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("`{word}` cannot be varied; accepted are {}", varied_words())]
 pub struct NotVaried {
-    /// The name.
+    /// Name that was given.
     word: String,
 }
 
@@ -246,7 +251,7 @@ fn varied_words() -> String {
 }
 
 impl Field {
-    /// Returns the fields of an interface.
+    /// Returns the fields that an interface accepts.
     pub fn of(words: Words) -> impl Iterator<Item = Self> {
         Self::ALL.iter().copied().filter(move |field| !field.facts().absent.contains(&words))
     }
@@ -268,7 +273,8 @@ impl Field {
         Self::ALL.iter().copied().find(|field| field.facts().name == word)
     }
 
-    /// Returns the field with this column title, in the forms that users write in tables.
+    /// Returns the field with this column title. Accepted are its name and its other titles, whatever the case and the
+    /// blanks, and its exact name in results. `None` if there is no such field, or if tables do not accept it.
     pub fn titled(title: &str) -> Option<Self> {
         let key: String = title.to_lowercase().split_whitespace().collect();
         let known = |field: &Self| field.facts().titles.contains(&key.as_str());
@@ -277,7 +283,8 @@ impl Field {
         own.filter(|field| !field.facts().absent.contains(&Words::Columns))
     }
 
-    /// Returns the numeric field to vary. `m` and `l` are short for `moes-m` and `moes-l`.
+    /// Returns the numeric field with a name. Used for the quantity that a sweep varies. `m` and `l` are short for
+    /// `moes-m` and `moes-l`.
     ///
     /// # Errors
     /// If no numeric field has this name. The message lists the accepted names.
@@ -290,18 +297,19 @@ impl Field {
         found.ok_or_else(|| NotVaried { word: word.to_owned() })
     }
 
-    /// Checks that a text is a valid value of the field, as [`ContactSpec::read_flag`].
+    /// Checks that a text is a valid value of the field by the rules of [`ContactSpec::read_flag`].
     ///
     /// # Errors
-    /// With a sentence that says what is accepted.
+    /// If it is not. The message says what is accepted.
     pub fn check(self, text: &str) -> Result<(), ValueError> {
-        // Revolutions per minute are valid; the radius that converts them is another field.
+        // The radii are arbitrary. They are needed because a speed in revolutions per minute is converted by a radius.
         let mut spec = ContactSpec { radius1: Some(1.0), radius2: Some(1.0), ..ContactSpec::default() };
         spec.read_typed(self, text)
     }
 
-    /// Returns the key by which fields are sorted before they are read. The kind of contact, on which the unit of the
-    /// load depends, comes first. The speeds of the bodies, which may be revolutions per minute, follow their radii.
+    /// Returns the key by which fields are sorted before they are read. The kind of contact comes first, because the
+    /// unit of the load depends on it. The speeds of the bodies come after their radii, because these convert
+    /// revolutions per minute.
     pub fn reading_order(self) -> (bool, Self) {
         (matches!(self, Self::U1 | Self::U2), self)
     }
@@ -316,7 +324,7 @@ impl Field {
         self.numbers() > 0
     }
 
-    /// Returns true if the field is a switch.
+    /// Returns true if the field is a switch, which needs no value as a flag.
     pub const fn is_switch(self) -> bool {
         matches!(self, Self::Heat)
     }

@@ -1,4 +1,5 @@
-//! Errors of a table of load cases and of its lines.
+//! Errors of a table of load cases: reasons why the whole table is refused, and reasons why one line is refused while
+//! the others are solved.
 
 use super::columns::accepted;
 use crate::scene::check::MAX_POINTS;
@@ -27,29 +28,29 @@ pub enum CasesError {
     /// The table has too many lines.
     #[error("the table of load cases has more than {MAX_POINTS} lines")]
     TooLong,
-    /// A title is unknown.
+    /// A column title is unknown.
     #[error(
         "line {line}: the column “{title}” is unknown; accepted are name, measured, {}; put # before a title that is not to be read",
         accepted()
     )]
     Title {
-        /// Line of the titles.
+        /// Number of the line with the titles.
         line: usize,
         /// The title.
         title: String,
     },
-    /// Two columns have the same content.
+    /// Two columns give the same quantity.
     #[error("line {line}: two columns give the same quantity, “{title}” and a previous one")]
     Twice {
-        /// Line of the titles.
+        /// Number of the line with the titles.
         line: usize,
-        /// The second title.
+        /// Title of the second column.
         title: String,
     },
     /// The unit in a title does not belong to its quantity.
     #[error("line {line}: the column “{title}”: {problem}")]
     Unit {
-        /// Line of the titles.
+        /// Number of the line with the titles.
         line: usize,
         /// The title.
         title: String,
@@ -61,7 +62,7 @@ pub enum CasesError {
 /// Reason why a line of a table is refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum LineError {
-    /// More cells than titles.
+    /// The line has more cells than the table has titles.
     #[error("there are {cells} cells, but {titles} titles")]
     Cells {
         /// Number of cells.
@@ -75,16 +76,16 @@ pub enum LineError {
     /// The measured film thickness is not positive.
     #[error("measured is {0} m, but must be above zero; leave the cell empty if there is no measurement")]
     MeasuredRange(f64),
-    /// The contact is refused.
+    /// The inputs of the line do not define a valid contact.
     #[error("{}", .0.in_words(Words::Columns))]
     Contact(Refusal),
     /// The grid of the scene is not valid for the contact.
     #[error(transparent)]
     GridOfScene(Refused),
-    /// The grid of the line is refused.
+    /// The grid given in the line is not valid for the contact.
     #[error("{}", grid_of_line(.0))]
     Grid(Refused),
-    /// The problem is refused.
+    /// The solver does not support the contact.
     #[error(transparent)]
     Solve(#[from] SolveError),
 }
@@ -95,7 +96,8 @@ impl From<Refusal> for LineError {
     }
 }
 
-/// Returns the message for a refused grid, with fields named as columns.
+/// Returns the message for a grid that a line gives. It names the column `dx`, for instance, instead of the field
+/// `grid.dx` of a scene.
 fn grid_of_line(refused: &Refused) -> String {
     match refused.field.strip_prefix("grid.") {
         Some(name) => format!("{} {}", name.split('.').next().unwrap_or(name), refused.problem),

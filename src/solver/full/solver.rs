@@ -1,6 +1,6 @@
-//! Solution of contacts: initial guesses for Newton's method, and the attempts until one converges. The attempts
-//! start from a given solution, then from cold starts with several film thicknesses, then by continuation from an
-//! easier contact.
+//! Full solver of line and point contacts. It runs Newton's method from several initial guesses until one converges:
+//! from a given solution, from Hertzian pressures with several film thicknesses (cold starts), and at last by
+//! continuation from an easier contact.
 
 use super::cut::cell;
 use super::far_field;
@@ -24,15 +24,15 @@ use std::sync::Arc;
 pub enum Start<'a> {
     /// Hertzian pressure, and a film thickness from a formula.
     Cold,
-    /// Any solution of the same kind of contact, also at another operating point or on another grid. A solution of
-    /// the other kind leads to a cold start. A contact with an inlet film thickness always starts cold.
+    /// A solution of the same kind of contact. It may have another operating point or another grid. A solution of the
+    /// other kind is ignored, and so is every solution if the contact has an inlet film thickness.
     From(&'a Solution),
 }
 
 impl<'a> Start<'a> {
-    /// Returns the solution from which a problem starts, or `None` for a cold start. The discrete equations of a
-    /// starved inlet have several solutions, which differ in the meniscus. The iteration converges to the one next to
-    /// its initial guess, so a starved contact starts cold.
+    /// Returns the solution from which a problem starts, or `None` for a cold start. A starved contact always starts
+    /// cold: its discrete equations have several solutions with different menisci, and the iteration would converge to
+    /// the one next to its initial guess.
     pub(super) fn former(self, problem: &Problem) -> Option<&'a Solution> {
         match self {
             Self::From(former) if former.problem.point.kind == problem.point.kind && problem.supply.is_none() => {
@@ -43,50 +43,55 @@ impl<'a> Start<'a> {
     }
 }
 
-/// Pressure rises, in units of the estimated one, that locate the initial meniscus of a starved inlet; one per start.
+/// Pressure rises between meniscus and contact, relative to the estimated one. They determine where the meniscus of a
+/// starved inlet lies at the beginning of each cold start.
 const MENISCI: [f64; 3] = [1.0, 0.7, 0.85];
 
-/// Maximum number of Newton steps of one such start. Starts that need more steps cycle.
+/// Maximum number of Newton steps of one start of a starved contact. Starts that need more steps cycle and do not
+/// converge.
 const STARVED_NEWTON: usize = 40;
 
 /// Initial state of one attempt.
 #[derive(Clone, Copy)]
 pub(super) enum Beginning<'a> {
-    /// Hertzian pressure.
+    /// Hertzian pressure with a film thickness from a formula.
     Cold(ColdStart),
     /// A solution of the same kind of contact.
     Warm(&'a Solution),
-    /// A neighbouring solution on a continuation path, with the extrapolated central film thickness if there is one.
+    /// Solution of a neighbouring contact on a continuation path, and the extrapolated central film thickness H_c if
+    /// there is one.
     Along(&'a Solution, Option<f64>),
 }
 
-/// Film of a cold start.
+/// Parameters of a cold start.
 #[derive(Clone, Copy)]
 pub(super) struct ColdStart {
-    /// Central film thickness in units of the contact's film formula.
+    /// Central film thickness relative to the contact's film formula.
     pub film: f64,
-    /// For a starved inlet, pressure rise to the meniscus in units of the estimated one.
+    /// For a starved inlet: pressure rise between meniscus and contact, relative to the estimated one.
     pub rise: f64,
-    /// For rough surfaces, largest central asperity pressure P_a.
+    /// For rough surfaces: largest asperity pressure P_a in the centre. The film thickness is increased if necessary.
     pub asperity_pressure: f64,
 }
 
 impl ColdStart {
-    /// Cold starts with the given film thicknesses.
+    /// Returns cold starts with these film thicknesses, relative to the contact's film formula.
     pub(super) fn all(films: [f64; 3]) -> [Self; 3] {
         std::array::from_fn(|k| Self { film: films[k], rise: 1.0, asperity_pressure: rough::COLD_PRESSURES[k] })
     }
 }
 
-/// Returns the maximum number of Newton steps of all starts of a solve together, without its continuation. The
-/// argument is the number of unknowns of the grid. The result is 3,000, fewer on large grids, and at least 100.
+/// Returns the maximum number of Newton steps of all starts of a solve together, for a grid with this number of
+/// unknowns. The result lies between 100 (large grids) and 3000. The continuation has a separate limit.
 pub fn most_newton(unknowns: usize) -> usize {
     (4_000_000 / unknowns.max(1)).clamp(100, 3000)
 }
 
 /// Solver of one kind of contact on one grid. Keeps the grid and the work space between solves.
 pub struct Solver<S: NewtonSpace> {
+    /// Data of the grid that do not depend on the contact.
     pub(super) reference: S::Reference,
+    /// Discrete system of the last solve. `None` before the first one.
     pub(super) system: Option<System<S>>,
     /// Settings of every solve.
     pub options: SolveOptions<S::Control>,
@@ -98,7 +103,7 @@ pub type FullSolver = Solver<LineSpace>;
 pub type PointSolver = Solver<PlaneSpace>;
 
 impl<S: NewtonSpace> Solver<S> {
-    /// Creates a solver on the grid of a specification.
+    /// Creates a solver and builds its grid.
     ///
     /// # Errors
     /// If the specification is refused.
@@ -116,9 +121,9 @@ impl<S: NewtonSpace> Solver<S> {
         &self.reference
     }
 
-    /// Solves one contact. After a failed start it tries further ones and finally continuation from an easier
-    /// contact. The solution's report contains the outcome. A solution that has not converged contains the last state
-    /// and must not be shown as a result.
+    /// Solves one contact. If the first start fails, it tries further starts and finally continuation from an easier
+    /// contact. The report of the solution says whether it converged. If not, the solution contains the last state and
+    /// must not be shown as a result.
     ///
     /// # Errors
     /// If the operating point or the lubricant is refused, or if the contact is of the other kind.
@@ -133,7 +138,7 @@ impl<S: NewtonSpace> Solver<S> {
         self.solve_problem(Problem::new(point, lubricant)?, start, observer)
     }
 
-    /// Solves an existing problem, for instance one with other sliding.
+    /// Solves an existing problem, for instance one whose slide-to-roll ratio was changed.
     ///
     /// # Errors
     /// If the problem is of the other kind.
@@ -154,12 +159,11 @@ impl<S: NewtonSpace> Solver<S> {
             None => all.map(Beginning::Cold),
             Some(_) => MENISCI.map(|rise| Beginning::Cold(ColdStart { rise, ..all[0] })),
         };
-        // Far from the middle of the map, a second cold start fails like the first one. Farther out, every cold start
-        // fails.
-        let load = problem.load_as_a_circle();
-        let cold_starts = match load {
-            _ if problem.supply.is_some() || problem.rough.is_some() || load <= S::COLD_M.0 => cold.len(),
-            _ if load <= S::COLD_M.1 => 1,
+        // Above the first limit of M, further cold starts fail if the first one does. Above the second one, all fail.
+        let m = problem.load_as_a_circle();
+        let cold_starts = match m {
+            _ if problem.supply.is_some() || problem.rough.is_some() || m <= S::COLD_M.0 => cold.len(),
+            _ if m <= S::COLD_M.1 => 1,
             _ => 0,
         };
         let most = most_newton(S::unknowns(&self.reference));
@@ -180,7 +184,8 @@ impl<S: NewtonSpace> Solver<S> {
         Ok(solution)
     }
 
-    /// Takes a few Newton steps from fields on this grid, by which their error can be estimated.
+    /// Takes a few Newton steps, at most `options.max_newton`, from fields on this grid. The change of the fields is an
+    /// estimate of their error.
     ///
     /// # Errors
     /// If the kernel of the contact's shape cannot be built.
@@ -195,7 +200,8 @@ impl<S: NewtonSpace> Solver<S> {
         self.solution(fields.problem, report)
     }
 
-    /// Returns the system prepared for a cold start, for other iterations such as the dense baseline.
+    /// Returns a system in the state of the first cold start, and its problem. Used for other iterations, such as the
+    /// dense baseline.
     ///
     /// # Errors
     /// If the operating point or the lubricant is refused.
@@ -211,8 +217,8 @@ impl<S: NewtonSpace> Solver<S> {
         Ok((system, problem))
     }
 
-    /// Returns the system on the grid in the form that a problem requires. The stored system is reused if it has that
-    /// form; another form has other coefficients.
+    /// Returns the system on the grid in the form that a problem requires. Takes the stored system out of `self` if it
+    /// has that form, and creates a new one otherwise, because another form has other coefficients.
     ///
     /// # Errors
     /// If the kernel of that form cannot be built.
@@ -224,8 +230,9 @@ impl<S: NewtonSpace> Solver<S> {
         }
     }
 
-    /// Runs Newton's method once and adds its effort to the report. `most` limits the iterations of all runs
-    /// together.
+    /// Runs Newton's method from one initial state and adds its effort to the report. `most` is the maximum number of
+    /// Newton steps in the whole report. Some problems are first solved with complementarity, then with their own
+    /// cavitation model.
     pub(super) fn attempt(
         &mut self,
         problem: &Problem,
@@ -243,13 +250,13 @@ impl<S: NewtonSpace> Solver<S> {
         }
         let left = |report: &Report| most.saturating_sub(report.newton_iterations).min(self.options.max_newton);
         let by_complementarity = match problem.lubricant.cavitation {
-            // Start near a flooded film, for which complementarity is more robust.
+            // A fully flooded film is a good start, and complementarity is the more robust method for it.
             Cavitation::MassConserving { .. } => !system.is_starved(),
-            // For wide elliptical contacts, and for films much longer than the contact, the cavitation boundary of
-            // the penalty reaches its position in about three times as many steps.
+            // For elliptical contacts, and for films much longer than the contact, the penalty needs about three times
+            // as many steps until the cavitation boundary reaches its position.
             Cavitation::Penalty => {
-                let far = problem.point.is_elliptic() || system.space.grid().continues();
-                far && matches!(beginning, Beginning::Cold(..))
+                let slow = problem.point.is_elliptic() || system.space.grid().continues();
+                slow && matches!(beginning, Beginning::Cold(..))
             }
             Cavitation::Complementarity => false,
         };
@@ -276,7 +283,7 @@ impl<S: NewtonSpace> Solver<S> {
         Ok(())
     }
 
-    /// Returns the current state as a solution.
+    /// Returns the current state as a solution of a problem, with a report.
     pub(super) fn solution(&mut self, problem: Problem, report: Report) -> Result<Solution, SolveError> {
         let system = self.system_for(&problem)?;
         let System { space, pressure, film, h_0, active, fraction, rough, .. } = self.system.insert(system);
@@ -299,9 +306,9 @@ impl<S: NewtonSpace> Solver<S> {
     }
 }
 
-/// Returns the central film thickness of a formula in the solver's scaling, H = (h/R) (R/a)². The formulas are Moes'
-/// for a line contact, Hamrock and Dowson's for a circular contact, and that of Nijenbanning, Venner and Moes for an
-/// elliptical contact. Hamrock and Dowson's formula is far too thick for R_y < R_x.
+/// Returns the central film thickness by a formula, as H = (h/R) (R/a)². The formula is that of Moes for a line
+/// contact, of Hamrock and Dowson for a circular contact, and of Nijenbanning, Venner and Moes for an elliptical
+/// contact: there Hamrock and Dowson's film thickness is far too large for R_y < R_x.
 pub(super) fn formula_film(problem: &Problem) -> f64 {
     let point = &problem.point;
     if point.kind.is_line() {
@@ -309,19 +316,19 @@ pub(super) fn formula_film(problem: &Problem) -> f64 {
     }
     let all_regimes = FilmFormula::NijenbanningVennerMoes.predict(point).film_m;
     let piezoviscous = FilmFormula::HamrockDowsonCentral.predict(point).film_m;
-    // Hamrock and Dowson's power law in α does not cover the isoviscous regimes.
+    // Hamrock and Dowson's formula, a power law in α, does not cover the isoviscous regimes.
     let film = if point.is_elliptic() || piezoviscous < 0.5 * all_regimes { all_regimes } else { piezoviscous };
     film / point.film_scale_m()
 }
 
-/// Sets the Hertzian pressure and the central film thickness of a cold start.
+/// Sets pressure, central film thickness and meniscus of a cold start.
 fn cold_state<S: NewtonSpace>(system: &mut System<S>, problem: &Problem, start: ColdStart) {
     let ColdStart { film, rise, asperity_pressure } = start;
     let (x, y) = system.space.grid().abscissae();
     let hertz = x.iter().flat_map(|x| y.iter().map(move |y| (1.0 - (x * x + y * y)).max(0.0).sqrt()));
     let film = film * formula_film(problem);
     let pressure: Vec<f64> = if system.space.grid().continues() {
-        // Pressure of rigid bodies, because the Hertzian zone may lie between two nodes.
+        // The pressure between rigid bodies, because the Hertzian zone may be narrower than the spacing of the nodes.
         let curvature = problem.point.ellipse().gap_curvature();
         let gap = |x: f64, y: f64| film + 0.5 * (x * x + curvature * y * y);
         let rigid = |x: f64, y: f64| far_field::pressure(problem, (x - 0.4 * film.sqrt(), y), gap(x, y));
@@ -335,9 +342,10 @@ fn cold_state<S: NewtonSpace>(system: &mut System<S>, problem: &Problem, start: 
     system.guess_meniscus(problem, rise);
 }
 
-/// Transfers a previous solution to this grid. The pressure is copied on the same reference grid, whatever the scale
-/// of its registration, and interpolated on another one. The central film thickness is `film`, or that of the
-/// previous solution scaled by the formula.
+/// Sets the state of a start from a previous solution. On the same reference grid its pressure is copied, even if the
+/// registration (the stretching of a line contact's grid) has another scale. On another grid it is interpolated. The
+/// central film thickness is `film`; if that is `None`, it is that of the previous solution, scaled by the film
+/// formula.
 pub(super) fn warm_state<S: NewtonSpace>(
     system: &mut System<S>,
     problem: &Problem,
@@ -375,7 +383,8 @@ pub(super) fn warm_state<S: NewtonSpace>(
     }
 }
 
-/// Interpolates a node array of a solution (bi)linearly to other abscissae and ordinates; zero outside.
+/// Interpolates the node array `values` of a solution (bi)linearly to the nodes with the abscissae `x` and the
+/// ordinates `y`. Nodes outside the solution's grid get 0.
 pub(super) fn interpolated(former: &Solution, values: &[f64], x: impl Iterator<Item = f64>, y: &[f64]) -> Vec<f64> {
     let ny = former.y.len();
     let across: Vec<Option<(usize, f64)>> = y.iter().map(|&y| cell(&former.y, y)).collect();
@@ -398,7 +407,7 @@ pub(super) fn interpolated(former: &Solution, values: &[f64], x: impl Iterator<I
     out
 }
 
-/// Full solver of either kind of contact. Keeps the work space between solves.
+/// Full solver of line or of point contacts. Keeps the work space between solves.
 pub enum ContactSolver {
     /// Solver of line contacts.
     Line(FullSolver),
@@ -415,7 +424,7 @@ impl ContactSolver {
         }
     }
 
-    /// Returns the specification of its grid.
+    /// Returns the specification of the grid.
     pub fn grid_spec(&self) -> GridSpec {
         match self {
             Self::Line(solver) => solver.grid().spec,
@@ -423,7 +432,7 @@ impl ContactSolver {
         }
     }
 
-    /// Solves one contact, as [`Solver::solve`] does.
+    /// Solves one contact, see [`Solver::solve`].
     ///
     /// # Errors
     /// If the operating point or the lubricant is refused, or if the contact is of the other kind.
@@ -440,7 +449,7 @@ impl ContactSolver {
         }
     }
 
-    /// Solves an existing problem.
+    /// Solves an existing problem, see [`Solver::solve_problem`].
     ///
     /// # Errors
     /// If the problem is of the other kind.
@@ -456,8 +465,8 @@ impl ContactSolver {
         }
     }
 
-    /// Adds the discretisation error of the central film thickness to a solution on this grid. Returns a solution
-    /// that has not converged without it.
+    /// Adds the discretisation error of the central film thickness to a converged solution on this grid. For a solution
+    /// that has not converged, the error is `None`.
     pub fn judged(&mut self, solution: Solution) -> Solution {
         let grid_cost = solution.converged().then(|| match self {
             Self::Line(solver) => solver.grid_cost(&solution),
@@ -466,9 +475,9 @@ impl ContactSolver {
         Solution { grid_cost, ..solution }
     }
 
-    /// Takes a few Newton steps from fields on this grid, by which their error can be estimated. For a line contact
-    /// the steps are not damped: near a solution the penalty makes the residual jump, and damping by the residual
-    /// would hide the error.
+    /// Takes up to `steps` Newton steps from fields on this grid. The change of the fields is an estimate of their
+    /// error. For a line contact the steps are not damped: near a solution the residual with the penalty is
+    /// discontinuous, and damping by this residual would hide the error.
     ///
     /// # Errors
     /// If the kernel of the contact's shape cannot be built.

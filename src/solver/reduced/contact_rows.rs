@@ -1,4 +1,5 @@
-//! Scalars of a transient reduced state, computed from the nodes in the contact only.
+//! Scalar results of a transient reduced state, such as the central and the minimum film thickness and the maximum
+//! pressure. They are computed at every time step, and only from the nodes in the contact.
 
 use crate::solver::discrete::grid::dot;
 use crate::solver::discrete::space::Grid;
@@ -7,36 +8,43 @@ use crate::solver::full::{Scalars, under_contact};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, ColMut, ColRef, Mat, MatRef, Par};
 
-/// Rows of a basis in the contact, and data to compute the scalars from them.
+/// Rows of the modes at the nodes in the contact, and data to compute the scalars from them.
 ///
-/// The positions of the extremes of film thickness and pressure are found in single precision, which halves the
-/// memory read per step. The values there and at X = 0 are computed in double precision.
+/// The positions of the minimum film thickness and of the maximum pressure are searched in single precision, which
+/// halves the memory read per step. The values there and at X = 0 are computed in double precision.
 pub(crate) struct ContactRows {
+    /// Number of pressure modes.
     modes: usize,
-    /// Nodes, X of the nodes, and Y²/2, the contribution of Y to the undeformed gap.
+    /// Nodes in the contact, in ascending order.
     nodes: Vec<usize>,
+    /// X of these nodes.
     x: Vec<f64>,
+    /// Contribution Y²/2 of Y to the undeformed gap.
     across: Vec<f64>,
     /// Y of the nodes.
     y: Vec<f64>,
-    /// V at the nodes, followed by K V: (2 · nodes) × modes, with the pressure modes V and the flexibility matrix K.
+    /// Pressure modes V at the nodes, followed by their deformations K V with the flexibility matrix K: (2 · nodes) ×
+    /// modes, in single precision.
     coarse: Mat<f32>,
     /// The same in double precision, row-major.
     rows: Vec<f64>,
     /// Indices among these nodes around X = 0, with their interpolation weights.
     centre: Vec<(usize, f64)>,
+    /// Work space: pressure coefficients in single precision.
     coefficients: Vec<f32>,
+    /// Work space: pressures, then deformations, at the nodes.
     values: Vec<f32>,
 }
 
 impl ContactRows {
-    /// Selects the rows of V and K V, both nodes × modes, on a grid.
+    /// Selects the rows of the nodes in the contact from `pressure` (V) and `deformation` (K V), both nodes of the grid
+    /// × modes.
     pub fn new(grid: &impl Grid, pressure: MatRef<'_, f64>, deformation: MatRef<'_, f64>) -> Self {
         let (abscissae, ordinates) = grid.abscissae();
         let place = |node: &usize| (abscissae[node / ordinates.len()], ordinates[node % ordinates.len()]);
         let centre = grid.at_zero();
-        // The largest pressure lies in the region that is searched for the minimum film thickness. All its nodes are
-        // unknowns, except for those of a line contact around X = 0 that the interpolation needs.
+        // The maximum pressure lies in the region that is searched for the minimum film thickness. The nodes are the
+        // unknowns in this region and those that the interpolation at X = 0 uses.
         let unknowns = (0..grid.unknowns()).map(|k| grid.node(k)).filter(|node| under_contact(place(node).0));
         let mut chosen: Vec<usize> = unknowns.chain(centre.iter().map(|(node, _)| *node)).collect();
         chosen.sort_unstable();
@@ -61,8 +69,9 @@ impl ContactRows {
         }
     }
 
-    /// Computes the scalars of the state (p̃, H₀) from the pressure coefficients p̃ and the rigid-body separation H₀.
-    /// `bend` returns the film thickness at a node in addition to K V p̃.
+    /// Computes the scalars from the pressure coefficients p̃ and the rigid-body separation H₀. `bend` returns a
+    /// further contribution to the film thickness at a node of the grid, in addition to K V p̃. The search for the
+    /// minimum film thickness neglects it.
     pub fn scalars(&mut self, at: &Conditions, coefficients: &[f64], h_0: f64, bend: impl Fn(usize) -> f64) -> Scalars {
         self.coefficients.iter_mut().zip(coefficients).for_each(|(single, c)| *single = *c as f32);
         let values = ColMut::from_slice_mut(&mut self.values);

@@ -1,4 +1,5 @@
-//! State of a training: sufficient to stop after any full solution, continue later, and obtain the same model.
+//! State of a training, with all full solutions so far. A training that was stopped after any full solution continues
+//! from its state and gives the same model as without the stop.
 
 use super::search::Search;
 use super::spec::{TrainingSpec, WindowSpec};
@@ -9,53 +10,57 @@ use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::fronts;
 use serde::{Deserialize, Serialize};
 
-/// Factor in M by which training points extend beyond the ends of a local model, so that its edge is not a corner.
+/// Factor in M and in the radius ratio by which the training points of a local model extend beyond its intervals.
+/// Contacts near an end of an interval then have training points on both sides.
 pub(super) const OVERLAP: f64 = 1.221_402_758_160_17;
 
 /// Minimum number of full solutions for a local model.
 pub(super) const FEWEST: usize = 4;
 
-/// Film pressure P_h of rough surfaces up to which a node counts as cavitated.
+/// Film pressure P_h up to which a node of a contact with rough surfaces counts as cavitated.
 const NO_FILM_PRESSURE: f64 = 1e-8;
 
-/// Training with all its results; full solutions are never computed twice.
+/// State of a training. Stored full solutions are used again and not computed twice.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TrainingState {
     /// Specification of the training.
     pub spec: TrainingSpec,
-    /// Grids on trial for automatic local models; empty after the grid is selected.
+    /// Trials: candidate grids for automatic local models, with their solutions. Empty after a grid is selected.
     pub trials: Vec<WindowState>,
-    /// Local models by ascending M; automatic ones are split during the training.
+    /// Local models in the order of ascending M. Automatic ones may be split during the training.
     pub windows: Vec<WindowState>,
-    /// Decisions on grid and local models, for the model's log.
+    /// Decisions on grids and local models, one sentence each, for the log of the model.
     pub decisions: Vec<String>,
-    /// Number of full solutions computed so far; overlapping local models may share them.
+    /// Number of full solutions computed so far. A solution that overlapping local models share counts once.
     pub solves: usize,
 }
 
 /// State of one local model, or of one trial.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct WindowState {
-    /// Specification: interval of M and grid.
+    /// Specification, with the interval of M and the grid.
     pub window: WindowSpec,
-    /// Seed of its random numbers.
+    /// Seed of the random numbers of this local model.
     pub seed: u64,
-    /// Number of inherited solutions.
+    /// Number of solutions at the beginning of `solved` that it took over, for instance from the local model that was
+    /// split into this one.
     pub inherited: usize,
-    /// Full solutions, in the order of planning.
+    /// Full solutions, in the order in which their points were planned.
     pub solved: Vec<Solved>,
-    /// Planned points that are not solved yet, with their places.
+    /// Planned points that are not solved yet, with their places in the order of planning.
     pub pending: Vec<(usize, OperatingPoint)>,
-    /// True after the first points are planned.
+    /// True once the first points have been planned.
     pub planned: bool,
     /// State of the search for bad approximations.
     pub search: Search,
 }
 
-/// Owner of full solutions.
+/// Part of a training that has full solutions.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Part {
+    /// Trial, by its index in [`TrainingState::trials`].
     Trial(usize),
+    /// Local model, by its index in [`TrainingState::windows`].
     Window(usize),
 }
 
@@ -66,20 +71,22 @@ pub struct Solved {
     pub place: usize,
     /// Operating point.
     pub point: OperatingPoint,
-    /// P over the node array.
+    /// Pressure P, node array.
     pub pressure: Vec<f64>,
     /// Rigid-body separation H₀.
     pub h_0: f64,
     /// Central film thickness H_c.
     pub h_c: f64,
-    /// Discretisation error, if requested.
+    /// Discretisation error of H_c, if it was requested.
     pub grid_cost: Option<GridCost>,
-    /// First cavitated column of each line along X, of rough surfaces. Empty for smooth ones, whose pressures show it.
+    /// For rough surfaces, the first cavitated column of each line along X. Empty for smooth surfaces, where it follows
+    /// from the pressures.
     pub fronts: Vec<usize>,
 }
 
 impl Solved {
-    /// Returns the film thickness to which errors of the central one are relative: for rough surfaces at least σ/2.
+    /// Returns the film thickness by which errors of H_c are divided to get relative errors. It is H_c itself for
+    /// smooth surfaces. For rough surfaces it is at least half the reference roughness.
     pub(super) fn least_film(&self) -> f64 {
         match self.fronts.is_empty() {
             true => self.h_c,
@@ -87,7 +94,8 @@ impl Solved {
         }
     }
 
-    /// Extracts the data that a training needs from a solution on a grid.
+    /// Extracts the data that a training needs from a solution on a grid. `place` is its place in the order of
+    /// planning.
     pub fn new(place: usize, solution: Solution, grid: &ContactGrid) -> Self {
         let fronts = solution.problem.rough.map_or_else(Vec::new, |_| {
             let film_pressure = solution.film_pressure();
@@ -104,18 +112,19 @@ impl TrainingState {
         Self { spec, trials: Vec::new(), windows: Vec::new(), decisions: Vec::new(), solves: 0 }
     }
 
-    /// Returns the number of full solutions so far.
+    /// Returns the number of full solutions computed so far.
     pub fn solutions(&self) -> usize {
         self.solves
     }
 
-    /// Returns the contacts that must be solved in full next, with their places and their grid; `None` if none are
-    /// planned.
+    /// Returns the contacts that must be solved in full next, with their places, and the grid for them. `None` if none
+    /// are planned.
     pub fn awaited(&self) -> Option<(GridSpec, &[(usize, OperatingPoint)])> {
         let part = self.trials.iter().chain(&self.windows).find(|part| !part.pending.is_empty())?;
         Some((part.window.grid, &part.pending))
     }
 
+    /// Returns the state of a trial or of a local model.
     pub(super) fn part(&mut self, part: Part) -> &mut WindowState {
         match part {
             Part::Trial(k) => &mut self.trials[k],
@@ -125,7 +134,7 @@ impl TrainingState {
 }
 
 impl WindowState {
-    /// Creates a local model with inherited solutions only.
+    /// Creates the state of a local model that has only solutions from other parts of the training.
     pub(super) fn new(window: WindowSpec, seed: u64, inherited: impl IntoIterator<Item = Solved>) -> Self {
         let renumbered = inherited.into_iter().enumerate().map(|(place, solved)| Solved { place, ..solved });
         let solved: Vec<Solved> = renumbered.collect();
@@ -133,13 +142,13 @@ impl WindowState {
         Self { window, seed, inherited: solved.len(), solved, pending, planned, search }
     }
 
-    /// Plans further points.
+    /// Adds points to be solved, with the next free places.
     pub(super) fn decide(&mut self, points: impl IntoIterator<Item = OperatingPoint>) {
         let from = self.solved.len() + self.pending.len();
         self.pending.extend(points.into_iter().enumerate().map(|(i, p)| (from + i, p)));
     }
 
-    /// Removes contacts without a full solution; later places move up.
+    /// Removes planned contacts for which no full solution was found, given by their places. Later places move up.
     pub(super) fn give_up(&mut self, places: impl IntoIterator<Item = usize>) {
         let mut given_up: Vec<usize> = places.into_iter().collect();
         given_up.sort_unstable();
@@ -149,7 +158,7 @@ impl WindowState {
         self.solved.iter_mut().for_each(|solved| moved(&mut solved.place));
     }
 
-    /// Adds finished solutions and sorts by place.
+    /// Moves contacts from the planned to the solved ones. The solutions stay sorted by place.
     pub(super) fn keep(&mut self, finished: Vec<Solved>) {
         self.pending.retain(|(place, _)| finished.iter().all(|s| s.place != *place));
         self.solved.extend(finished);

@@ -1,4 +1,6 @@
-//! Bases of a transient reduced model: those of a model that was opened, or of the run on the screen.
+//! Part of the Basis tab for transient reduced models. It draws the singular values, the modes and the sampled
+//! equations of one basis: the whole basis, or the local basis of a cluster of states. The model was opened from a
+//! file, or it belongs to the transient run on the screen.
 
 use super::curves::{Curves, Shown};
 use super::losses::singular_plot;
@@ -10,33 +12,34 @@ use crate::solver::reduced::transient::TrajectoryModel;
 use egui::{ComboBox, Ui};
 use std::sync::Arc;
 
-/// Bases of a transient model on the screen.
+/// View of the bases of a transient reduced model.
 #[derive(Default)]
 pub struct InTime {
-    /// Model that was opened from a file.
+    /// Model that was opened from a file. It takes precedence over the model of the run.
     opened: Option<Arc<TrajectoryModel>>,
-    /// True if the transient model is shown, and not the one of the contact.
+    /// True if the tab shows the transient model instead of the model of the steady contact.
     pub chosen: bool,
-    /// Basis, 0 for the whole one, k + 1 for cluster k.
+    /// Selected basis: 0 for the whole basis, k + 1 for that of cluster k.
     number: usize,
-    /// Model and basis of the curves.
+    /// Model and number of the basis from which the curves were computed.
     drawn: Option<(Arc<TrajectoryModel>, usize)>,
+    /// Curves and settings of their display.
     shown: Shown,
 }
 
 impl InTime {
-    /// Shows a model that was opened.
+    /// Shows a model that was opened from a file.
     pub fn open(&mut self, model: Arc<TrajectoryModel>) {
         (self.opened, self.chosen, self.number) = (Some(model), true, 0);
     }
 
-    /// Returns the model: the opened one, else that of the transient run on the screen.
+    /// Returns the opened model, or else that of the transient run on the screen. `None` if there is neither.
     pub fn model(&self, context: &Context<'_>) -> Option<Arc<TrajectoryModel>> {
         let of_run = || context.transient.runs.iter().find_map(|run| run.reduced.clone());
         self.opened.clone().or_else(of_run)
     }
 
-    /// Draws the singular values, the modes and the sampled equations of a basis.
+    /// Draws the selected basis. `fit` fits the plots to their data.
     pub fn ui(&mut self, ui: &mut Ui, model: &Arc<TrajectoryModel>, fit: bool) {
         self.number = self.number.min(model.locals.len());
         let window = basis(model, self.number);
@@ -51,6 +54,7 @@ impl InTime {
         modes::ui(ui, &mut self.shown, fit, window, (ui.available_height() - 4.0).max(120.0));
     }
 
+    /// Draws the title, the choice of the basis, and the numbers of modes, sampled equations and trajectories.
     fn toolbar(&mut self, ui: &mut Ui, model: &TrajectoryModel, window: &Window) {
         ui.horizontal_wrapped(|ui| {
             let title = if model.title.is_empty() { "Model of the run" } else { &model.title };
@@ -79,6 +83,7 @@ impl InTime {
     }
 }
 
+/// Returns the basis with a number, see [`InTime::number`]. An invalid number gives the whole basis.
 fn basis(model: &TrajectoryModel, number: usize) -> &Window {
     let local = number.checked_sub(1).and_then(|local| model.locals.get(local));
     local.map_or(&model.window, |local| &local.window)

@@ -1,5 +1,5 @@
-//! Results tab: results of any scene. Its study runs in the engine as from the command line, and charts, tables and
-//! verdicts are updated while it runs.
+//! Results tab: charts, tables and verdicts of the study of a scene, updated while the study runs. The study runs in
+//! the engine, as from the command line. The tab can also show a campaign in a folder or the runs of the Transient tab.
 
 use super::column::PlottedColumn;
 use super::run::{Campaign, Look, Run};
@@ -20,8 +20,8 @@ use egui::{ComboBox, Label, RichText, ScrollArea, Ui};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// Width of the verdicts next to the charts.
-const VERDICTS: f32 = 330.0;
+/// Width of the verdicts next to the charts, in screen points.
+const VERDICTS_WIDTH: f32 = 330.0;
 
 /// Tooltip of the button that runs the study.
 const RUN_TIP: &str = "Runs the study of the open scene, as “ehl-explorer run” does without a window";
@@ -29,15 +29,16 @@ const RUN_TIP: &str = "Runs the study of the open scene, as “ehl-explorer run�
 /// Displayed part of the results.
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum ResultsChoice {
+    /// All charts of the study.
     Charts,
     /// A table, by its name.
     Table(String),
-    /// A column of a table.
+    /// Plot of a column of a table.
     Column(PlottedColumn),
 }
 
 impl ResultsChoice {
-    /// Returns the name of the table that is shown or plotted.
+    /// Returns the name of the table that is shown or plotted. `None` for the charts.
     fn table(&self) -> Option<&str> {
         match self {
             Self::Charts => None,
@@ -47,16 +48,20 @@ impl ResultsChoice {
     }
 }
 
-/// Results tab: its run and the displayed part.
+/// Results tab.
 pub struct Results {
+    /// Study whose results are shown. `None` to show the results of the contact only.
     run: Option<Run>,
-    /// Document of the last frame with its scene.
+    /// Document of the last frame and its scene, which is made again only if the document changes.
     seen: Option<(Document, Scene)>,
-    /// True if the study is not that of the document, but a table of load cases.
+    /// True if the study is a table of load cases that is not part of the document.
     of_cases: bool,
-    /// Number of the last study of the Transient tab when the run was started. `None` until the tab is drawn.
+    /// Number of the last study of the Transient tab when `run` was started. Only newer ones can replace `run`. `None`
+    /// until the tab is drawn.
     older: Option<u64>,
+    /// Displayed part of the results.
     shown: ResultsChoice,
+    /// True if the charts must be fitted to their data in the next frame.
     fresh: bool,
 }
 
@@ -67,7 +72,7 @@ impl Default for Results {
 }
 
 impl Results {
-    /// Runs the study of a scene on a bench.
+    /// Runs the study of a scene. `bench` computes its contacts, and `wake` is called after each new result.
     pub fn start(&mut self, scene: Scene, bench: Workbench, wake: Wake) {
         let shown = match scene.study {
             // The table of the load cases is the main result.
@@ -77,45 +82,47 @@ impl Results {
         *self = Self { run: Some(Run::start(scene, bench, wake)), shown, ..Self::default() };
     }
 
-    /// Solves a table of load cases. The document keeps its study.
+    /// Solves the table of load cases in a scene. The document and its own study do not change.
     pub fn solve_cases(&mut self, scene: Scene, bench: Workbench, wake: Wake) {
         self.start(scene, bench, wake);
         self.of_cases = true;
     }
 
-    /// Watches a campaign of a scene. Charts and tables are updated as its shards arrive.
+    /// Shows a campaign: a study whose parts (shards) other processes compute and write to a folder. Charts and tables
+    /// are updated when shards arrive.
     pub fn watch(&mut self, scene: Scene, folder: PathBuf, wake: Wake) {
         *self = Self { run: Some(Run::watch(scene, folder, wake)), ..Self::default() };
     }
 
-    /// Discards the run, because another scene is on the screen.
+    /// Discards the run and its results. Called when another scene is opened.
     pub fn forget(&mut self) {
         *self = Self::default();
     }
 
-    /// Returns the progress of the running study.
+    /// Returns the progress of the running study. `None` if no study runs here.
     pub fn standing(&self) -> Option<Standing> {
         self.run.as_ref()?.standing()
     }
 
-    /// Returns true if a study runs whose rows are stored nowhere else.
+    /// Returns true if a study runs whose results are stored nowhere else.
     pub fn would_lose(&self) -> bool {
         self.run.as_ref().is_some_and(Run::would_lose)
     }
 
-    /// Returns whether all expectations are met. `None` before the study is complete.
+    /// Returns true if all expectations are met, and false if one is not. `None` if this is not known: before the study
+    /// is complete, or after runs of the Transient tab that leave out an expected value.
     pub fn verdict(&self) -> Option<bool> {
         let run = self.run.as_ref()?;
         verdicts::passed(run.look.as_ref()?, run.follows().is_some())
     }
 
-    /// Returns a table of the last evaluation by its name.
+    /// Returns a table of the results by its name.
     pub fn table(&self, name: &str) -> Option<&Table> {
         self.run.as_ref()?.look.as_ref()?.table(name)
     }
 
-    /// Follows the runs of the Transient tab for a scene whose study they are: automatic runs as long as no study has
-    /// been run here, and runs that the user starts.
+    /// Shows the runs of the Transient tab if they are the study of `scene`. Runs that the user starts replace the
+    /// present results. Automatic runs are shown only if no study has been run in this tab.
     fn follow(&mut self, ctx: &egui::Context, scene: &Scene, context: &Context<'_>) {
         let Some(recorded) = &context.transient.recorded else { return };
         let older = *self.older.get_or_insert(if self.run.is_some() { recorded.number } else { 0 });
@@ -136,8 +143,9 @@ impl Results {
         }
     }
 
+    /// Draws the title, the toolbar, warnings, and the results of the scene.
     fn scene_ui(&mut self, ui: &mut Ui, scene: &Scene, context: &Context<'_>, commands: &mut Commands) {
-        // A table of load cases is solved without becoming the scene of the document.
+        // Load cases have their own title, because they are not part of the document.
         let of = self.run.as_ref().filter(|_| self.of_cases).map_or(scene, |run| &run.scene);
         let title = if of.title.is_empty() { "Results" } else { &of.title };
         ui.horizontal_wrapped(|ui| {
@@ -182,10 +190,10 @@ impl Results {
         }
         let (fresh, partial) = (std::mem::take(&mut self.fresh), run.follows().is_some());
         let whole = ui.available_size();
-        let beside = whole.x > 2.0 * VERDICTS;
+        let beside = whole.x > 2.0 * VERDICTS_WIDTH;
         if beside {
             ui.horizontal_top(|ui| {
-                let width = ui.available_width() - VERDICTS - 12.0;
+                let width = ui.available_width() - VERDICTS_WIDTH - 12.0;
                 ui.vertical(|ui| {
                     ui.set_min_height(whole.y);
                     ui.set_max_width(width);
@@ -203,6 +211,7 @@ impl Results {
         }
     }
 
+    /// Draws the button that runs or stops the study, the choice of the displayed part, and the progress.
     fn toolbar(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         ui.horizontal_wrapped(|ui| {
             let standing = self.standing();
@@ -313,8 +322,8 @@ impl View for Results {
     }
 }
 
-/// Draws the progress of a campaign and the failures of shards. The two lines are always present, so that nothing
-/// moves after a failure.
+/// Draws the progress of a campaign in one line and the failures of its shards in a second one. The second line is
+/// present even without failures, so that nothing moves when a shard fails.
 fn campaign_ui(ui: &mut Ui, campaign: &Campaign) {
     let palette = Palette::of(ui);
     let folder = campaign.folder.display();
@@ -333,7 +342,7 @@ fn campaign_ui(ui: &mut Ui, campaign: &Campaign) {
     };
     ui.add(Label::new(text).truncate()).on_hover_text(folder.to_string());
     let named = |(shard, reason): &(usize, String)| format!("Shard {shard} failed: {reason}");
-    // A space keeps the line.
+    // A text of one space keeps the height of the line.
     let first = failed.first().map_or(" ".to_owned(), named);
     let more = if failed.len() > 1 { format!(" (and {} more)", failed.len() - 1) } else { String::new() };
     let line = ui.add(Label::new(rich(&format!("{first}{more}"), 11.0, palette.warning)).truncate());
@@ -346,6 +355,7 @@ fn campaign_ui(ui: &mut Ui, campaign: &Campaign) {
 /// Maximum number of failed shards listed on hover.
 const NAMED_FAILURES: usize = 12;
 
+/// Draws the chosen part of the results. `fresh` fits the charts to their data.
 fn shown_ui(ui: &mut Ui, look: &Look, shown: &ResultsChoice, (context, fresh): (&Context<'_>, bool)) {
     let system = context.system;
     match shown {
@@ -384,7 +394,8 @@ fn shown_ui(ui: &mut Ui, look: &Look, shown: &ResultsChoice, (context, fresh): (
     }
 }
 
-/// Returns the measured points of the document over the quantities of a chart.
+/// Returns the measured points of the document for the two quantities on the axes of a chart. Empty if the chart has no
+/// such quantities.
 fn measured_of(chart: &Chart, look: &Look, context: &Context<'_>) -> Vec<[f64; 2]> {
     match (&chart.quantities, look.outcome.tables.first()) {
         (Some([x, y]), Some(table)) if !context.measured.is_empty() => {

@@ -1,19 +1,20 @@
-//! Published data of transient marches, for comparison.
+//! Published size and cost of transient marches. A scene lists them, and the results show them next to the computed
+//! values.
 
 use crate::scene::check::{Checked, count, number, refuse};
 use serde::{Deserialize, Serialize};
 
-/// Size and cost of a march, as far as published.
+/// Size and cost of one march. Values that were not published are `None`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PublishedMarch {
-    /// Name of the march: a frame, then `full`, `rnsa` or `tpwl`, as in `fixed.rnsa`; preceded by the name of further
-    /// inputs if it uses these, as in `triangle.fixed.rnsa`.
+    /// Name of the march: frame and method, as in `fixed.rnsa`. A march with further inputs begins with the name of
+    /// these, as in `triangle.fixed.rnsa`.
     pub name: String,
-    /// Number of pressure modes, or of unknowns of the reduced system if only this is published.
+    /// Number of pressure modes, or of unknowns of the reduced system if only this number is published.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub modes: Option<usize>,
-    /// Number of sampled equations or operating points.
+    /// Number of sampled equations of a reduced model (`rnsa`), or of operating points of a linearised one (`tpwl`).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rows: Option<usize>,
     /// Number of time steps.
@@ -27,18 +28,19 @@ pub struct PublishedMarch {
     pub march_s: Option<f64>,
 }
 
-/// Methods for which marches may be published.
+/// Accepted methods: full solver, reduced model, and linearised (trajectory-piecewise-linear) model.
 pub const METHODS: [&str; 3] = ["full", "rnsa", "tpwl"];
 
 impl PublishedMarch {
-    /// Returns the time per step \[s\], as given or computed from the whole march.
+    /// Returns the time per step \[s\] as given, or else the time of the march divided by its steps. `None` if neither
+    /// is published.
     pub fn seconds_per_step(&self) -> Option<f64> {
         self.step_s.or_else(|| Some(self.march_s? / self.steps? as f64))
     }
 }
 
-/// Refuses invalid numbers, duplicate names, and names that are not those of a march. `subjects` are the names of full
-/// marches.
+/// Refuses invalid numbers, duplicate names, and names that do not consist of a subject and a method. `subjects` are
+/// the names of the marches of the study without the method, such as `fixed`.
 pub(super) fn check<'a>(published: &[PublishedMarch], subjects: impl Iterator<Item = &'a str> + Clone) -> Checked {
     for (i, march) in published.iter().enumerate() {
         let field = |name: &str| format!("study.published.{i}.{name}");

@@ -1,6 +1,6 @@
-//! LU factorisation of a block-tridiagonal matrix in single precision. It runs from both ends towards the middle on
-//! two threads, without additional arithmetic. Rows are pivoted inside the blocks. The factors serve as a
-//! preconditioner, for which single precision is sufficient.
+//! LU factorisation of a block-tridiagonal matrix in single precision, which is sufficient for a preconditioner. Two
+//! threads eliminate the blocks from both ends towards the middle, which needs no additional arithmetic. Rows are
+//! pivoted inside the blocks only.
 
 use crate::host::pool::{both, on_all_cores};
 use faer::dyn_stack::{MemBuffer, MemStack};
@@ -11,23 +11,30 @@ use faer::{Accum, MatMut, MatRef, Par};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Multiplications per side between two calls of `go_on`: about ten milliseconds, and all of a 301×41 grid.
-const PRODUCTS_BETWEEN_QUESTIONS: usize = 80_000_000;
+/// Number of multiplications of each thread between two calls of `go_on`. They take about ten milliseconds.
+const PRODUCTS_PER_CHECK: usize = 80_000_000;
 
-/// Square matrix of blocks on three diagonals; after [`BlockTridiagonal::factorise`] its factors.
+/// Square matrix of blocks on three diagonals. [`BlockTridiagonal::factorise`] replaces it by its factors.
 #[derive(Clone, Debug, Default)]
 pub struct BlockTridiagonal {
+    /// Number of rows of a block.
     size: usize,
+    /// Number of block rows.
     blocks: usize,
     /// Diagonal blocks, stored column by column; later their LU factors.
     diagonal: Vec<f32>,
-    /// Couplings of each block row to the previous block.
+    /// Couplings of each block row to the previous block. Those towards the middle are later multiplied by D⁻¹, the
+    /// inverse of the diagonal block.
     lower: Vec<f32>,
-    /// Couplings of each block row to the next block.
+    /// Couplings of each block row to the next block, changed in the same way.
     upper: Vec<f32>,
+    /// Row permutations of the factorised diagonal blocks, one after the other.
     permutation: Vec<usize>,
+    /// Their inverses.
     inverse: Vec<usize>,
+    /// Work space: right-hand side, then solution.
     values: Vec<f32>,
+    /// Work space: permuted right-hand side of one block for each thread.
     permuted: Vec<f32>,
 }
 
@@ -44,8 +51,9 @@ pub struct BlockRow<'a> {
 }
 
 impl BlockTridiagonal {
-    /// Resizes to `blocks` × `blocks` blocks of `size` × `size` entries; [`Self::fill`] clears them. New memory is
-    /// cleared by the system at its first use, so this call takes no time that could not be interrupted.
+    /// Resizes to `blocks` × `blocks` blocks of `size` × `size` entries. Entries may keep old values until
+    /// [`Self::fill`]. The call is short even for large matrices, because the system clears new memory only at its
+    /// first use.
     pub fn reset(&mut self, size: usize, blocks: usize) {
         (self.size, self.blocks) = (size, blocks);
         for entries in [&mut self.diagonal, &mut self.lower, &mut self.upper] {
@@ -61,8 +69,8 @@ impl BlockTridiagonal {
         self.permuted.resize(2 * size, 0.0);
     }
 
-    /// Clears all block rows and calls `row` to fill each of them, on all cores. Returns `None` if `row` did so for
-    /// one of them.
+    /// Clears all block rows and calls `row` to fill each of them, on all cores. Stops and returns `None` if `row`
+    /// returns `None`.
     pub fn fill(&mut self, row: impl Fn(BlockRow<'_>) -> Option<()> + Sync + Send) -> Option<()> {
         let square = (self.size * self.size).max(1);
         on_all_cores(|| {
@@ -75,7 +83,7 @@ impl BlockTridiagonal {
         })
     }
 
-    /// Replaces the matrix, which must not be factorised yet, by its transpose.
+    /// Replaces the matrix by its transpose. Call it before [`Self::factorise`].
     pub fn transpose(&mut self) {
         let (size, square) = (self.size, self.size * self.size);
         for block in 1..self.blocks {
@@ -91,8 +99,8 @@ impl BlockTridiagonal {
         }
     }
 
-    /// Factorises in place. Calls `go_on` every few milliseconds. Returns `false` if `go_on` did; then the factors
-    /// are incomplete.
+    /// Factorises in place. Calls `go_on` every few milliseconds. Stops and returns `false` if `go_on` returns `false`;
+    /// the factors are then incomplete.
     pub fn factorise(&mut self, go_on: impl Fn() -> bool) -> bool {
         let (size, square) = (self.size, self.size * self.size);
         let middle = self.blocks / 2;
@@ -101,7 +109,7 @@ impl BlockTridiagonal {
         let [left_upper, center_upper, right_upper] = parts(&mut self.upper, middle, square);
         let [left_order, center_order, right_order] = parts(&mut self.permutation, middle, size);
         let [left_inverse, center_inverse, right_inverse] = parts(&mut self.inverse, middle, size);
-        let stride = (PRODUCTS_BETWEEN_QUESTIONS / (size * square).max(1)).max(1);
+        let stride = (PRODUCTS_PER_CHECK / (size * square).max(1)).max(1);
         for from in (0..middle.max(self.blocks - middle)).step_by(stride) {
             if !go_on() {
                 return false;
@@ -123,7 +131,8 @@ impl BlockTridiagonal {
         true
     }
 
-    /// Solves in place for one right-hand side.
+    /// Replaces the right-hand side `b` by the solution. Call it after [`Self::factorise`]. If `b` is shorter than the
+    /// matrix, the missing entries count as zero.
     pub fn solve(&mut self, b: &mut [f64]) {
         let (size, square) = (self.size, self.size * self.size);
         let middle = self.blocks / 2;
@@ -162,15 +171,16 @@ impl BlockTridiagonal {
     }
 }
 
-/// Splits an array into the parts before, at and behind the block `middle`.
+/// Splits an array with `stride` entries per block into the parts before, at and behind the block `middle`.
 fn parts<T>(all: &mut [T], middle: usize, stride: usize) -> [&mut [T]; 3] {
     let (left, rest) = all.split_at_mut(middle * stride);
     let (center, right) = rest.split_at_mut(stride.min(rest.len()));
     [left, center, right]
 }
 
-/// Factorises some of the blocks of one side, counted from its outer end inwards. `inward` becomes D⁻¹ times the
-/// couplings towards the middle, where D is the diagonal block.
+/// Factorises some diagonal blocks D of one side. `steps` counts them from the outer end towards the middle; `reversed`
+/// is true for the side behind the middle. Replaces `inward`, the couplings towards the middle, by D⁻¹ times these.
+/// `outward` are the couplings towards the outer end.
 fn eliminate(
     steps: Range<usize>,
     size: usize,
@@ -187,8 +197,8 @@ fn eliminate(
         let k = if reversed { count - 1 - step } else { step };
         let here = k * square..(k + 1) * square;
         if step > 0 {
-            let former = if reversed { k + 1 } else { k - 1 };
-            let product = &inward[former * square..(former + 1) * square];
+            let previous = if reversed { k + 1 } else { k - 1 };
+            let product = &inward[previous * square..(previous + 1) * square];
             subtract_product(size, &mut diagonal[here.clone()], &outward[here.clone()], product);
         }
         let (order, inverse) = (&mut order[k * size..(k + 1) * size], &mut inverse[k * size..(k + 1) * size]);
@@ -200,11 +210,13 @@ fn eliminate(
     }
 }
 
+/// Returns work space for the factorisation of a block and for solves with it.
 fn stack(size: usize) -> MemBuffer {
     let lu = factor::lu_in_place_scratch::<usize, f32>(size, size, Par::Seq, Default::default());
     MemBuffer::new(lu.or(solve::solve_in_place_scratch::<usize, f32>(size, size, Par::Seq)))
 }
 
+/// Factorises one diagonal block in place, with row pivoting.
 fn lu(size: usize, block: &mut [f32], order: &mut [usize], inverse: &mut [usize], stack: &mut MemStack) {
     let block = MatMut::from_column_major_slice_mut(block, size, size);
     let _ = factor::lu_in_place(block, order, inverse, Par::Seq, stack, Default::default());
@@ -217,7 +229,7 @@ fn subtract_product(size: usize, block: &mut [f32], a: &[f32], b: &[f32]) {
     matmul(block, Accum::Add, view(a), view(&b[..size * size]), -1.0, Par::Seq);
 }
 
-/// Substitutes from the outer end of one side inwards.
+/// Forward substitution on one side, from its outer end towards the middle. `reversed` is true behind the middle.
 fn forward(
     size: usize,
     diagonal: &[f32],
@@ -245,7 +257,7 @@ fn forward(
     }
 }
 
-/// Substitutes from the middle outwards.
+/// Backward substitution on one side, from the middle with the solution `center` towards its outer end.
 fn backward(size: usize, inward: &[f32], values: &mut [f32], center: &[f32], reversed: bool) {
     let square = size * size;
     let count = values.len() / size.max(1);
@@ -264,7 +276,8 @@ fn backward(size: usize, inward: &[f32], values: &mut [f32], center: &[f32], rev
     }
 }
 
-/// Computes y −= A x for a block stored column by column, four columns at a time.
+/// Computes y −= A x for a block A stored column by column. It uses four columns at a time, so that y is read and
+/// written less often.
 fn subtract_from(y: &mut [f32], block: &[f32], x: &[f32]) {
     let size = y.len();
     let mut columns = block.chunks_exact(4 * size);
@@ -283,7 +296,7 @@ fn subtract_from(y: &mut [f32], block: &[f32], x: &[f32]) {
     }
 }
 
-/// Replaces `values` by the solution with one factorised block.
+/// Solves with one factorised block. Replaces the right-hand side `values` by the solution.
 fn lu_solve(size: usize, factors: &[f32], order: &[usize], values: &mut [f32], work: &mut [f32]) {
     for (work, &from) in work.iter_mut().zip(order) {
         *work = values[from];
@@ -296,7 +309,7 @@ fn lu_solve(size: usize, factors: &[f32], order: &[usize], values: &mut [f32], w
     }
     for (j, column) in factors.chunks_exact(size).enumerate().rev() {
         let (head, tail) = work.split_at_mut(j);
-        // A zero pivot would produce non-finite values. A preconditioner need not be exact.
+        // Division by a zero pivot would give values that are not finite. Zero is sufficient for a preconditioner.
         tail[0] = if column[j] == 0.0 { 0.0 } else { tail[0] / column[j] };
         for (w, u) in head.iter_mut().zip(column) {
             *w -= tail[0] * u;
@@ -320,7 +333,7 @@ mod tests {
                 if (i / size).abs_diff(j / size) > 1 { 0.0 } else { value + boost }
             };
             let mut matrix = BlockTridiagonal::default();
-            // Later runs reuse the memory of the first one.
+            // The second and the third run reuse the memory of the first one.
             for transposed in [false, false, true] {
                 let entry = |i: usize, j: usize| if transposed { entry(j, i) } else { entry(i, j) };
                 matrix.reset(size, blocks);
@@ -341,7 +354,7 @@ mod tests {
                 });
                 assert!(filled.is_some());
                 if transposed {
-                    // The matrix was filled with the transpose of the one that is solved.
+                    // The matrix was filled with the transpose of the expected one.
                     matrix.transpose();
                 }
                 let entry = |i: usize, j: usize| if transposed { entry(j, i) } else { entry(i, j) };

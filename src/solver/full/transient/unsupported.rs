@@ -1,18 +1,19 @@
-//! Contacts that transient simulations support.
+//! Reasons why transient simulations do not support a contact, and the checks that find them.
 
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::{Cavitation, Lubricant, ShearLaw};
 
-/// Reason why a contact is not supported, as a sentence. The interfaces add what they accept, in their own terms.
+/// Reason why a contact is not supported. The message is a sentence; each interface adds in its own terms what it
+/// accepts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Unsupported {
-    /// Point contact, by a method for line contacts.
+    /// Point contact, with a method that supports line contacts only.
     #[error("transient runs by this method cover line contacts only")]
     PointContact,
-    /// Frame or scheme that point contacts do not have.
+    /// Frame or time integration scheme that is not available for point contacts.
     #[error("transient runs of point contacts use the fixed frame and the scheme Bdf2")]
     PointFrame,
-    /// Inputs that point contacts do not have.
+    /// Inputs that are not available for point contacts: a variable radius or a speed that reverses.
     #[error("transient runs of point contacts need a constant radius and a speed that does not reverse")]
     PointInputs,
     /// Lubricant whose viscosity depends on the shear stress.
@@ -21,7 +22,7 @@ pub enum Unsupported {
     /// Thermal contact.
     #[error("transient runs cover isothermal contacts only")]
     Heat,
-    /// Rough surfaces, by a reduced or linearised model.
+    /// Rough surfaces in a reduced or linearised model.
     #[error("transient models cover smooth surfaces only")]
     RoughModel,
     /// Mass-conserving cavitation in a reduced or linearised model.
@@ -30,10 +31,11 @@ pub enum Unsupported {
 }
 
 impl Unsupported {
-    /// Checks that transient simulations by all methods support a contact.
+    /// Checks that transient simulations of line contacts support a contact. For reduced and linearised models, call
+    /// [`Self::check_model`] too.
     ///
     /// # Errors
-    /// The first reason why they do not.
+    /// With the first reason why they do not.
     pub fn check(kind: ContactKind, lubricant: &Lubricant) -> Result<(), Self> {
         if kind.is_point() { Err(Self::PointContact) } else { Self::check_lubricant(lubricant) }
     }
@@ -41,7 +43,7 @@ impl Unsupported {
     /// Checks that full transient simulations support a lubricant.
     ///
     /// # Errors
-    /// The first reason why they do not.
+    /// With the first reason why they do not.
     pub fn check_lubricant(lubricant: &Lubricant) -> Result<(), Self> {
         if lubricant.shear != ShearLaw::Newtonian {
             Err(Self::ShearThinning)
@@ -52,10 +54,11 @@ impl Unsupported {
         }
     }
 
-    /// Checks that reduced and linearised transient models support a lubricant.
+    /// Checks that reduced and linearised transient models support the cavitation model and the roughness of a contact.
+    /// Both are part of the lubricant.
     ///
     /// # Errors
-    /// The reason why they do not.
+    /// With the first reason why they do not.
     pub fn check_model(lubricant: &Lubricant) -> Result<(), Self> {
         match lubricant.cavitation {
             _ if lubricant.is_rough() => Err(Self::RoughModel),

@@ -1,4 +1,6 @@
-//! Sorted table of all operating points: number, T, weights, distance. A click on a row moves to its time.
+//! Table of the operating points of a linearised model (TPWL, trajectory piecewise linear). For each point it lists the
+//! number, the time T, the weights and the distance from the present state. A click on a column title sorts the table,
+//! and a click on the number of a point moves to its time.
 
 use super::shown::ShownModel;
 use crate::app::controls::named;
@@ -9,16 +11,16 @@ use crate::app::theme::rich;
 use crate::solver::reduced::tpwl::Weighting;
 use egui::{Button, Grid, ScrollArea, Ui};
 
-/// Column that the table is sorted by.
+/// Column of the table.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum Column {
-    /// Number of the point.
+    /// Number of the point, from 1.
     Point,
-    /// T of its time step.
+    /// Time T of the point on its training trajectory.
     Time,
-    /// A weight, by its index in [`WEIGHTINGS`].
+    /// Weight by one weighting, given by its index in [`WEIGHTINGS`].
     Weight(usize),
-    /// Distance from the state.
+    /// Relative distance of the point from the state at the displayed time.
     #[default]
     Distance,
 }
@@ -26,13 +28,15 @@ enum Column {
 /// Order of the table.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Sorting {
+    /// Column by which the table is sorted.
     by: Column,
-    /// True for the reverse order: weights ascending, all others descending.
+    /// True to reverse the order. By default weights descend and all other columns ascend.
     reversed: bool,
 }
 
 impl Sorting {
-    /// Sorts points with their times.
+    /// Sorts pairs of a point and its time. Among equal values, the nearer point comes first unless the order
+    /// is reversed.
     fn sort(self, points: &mut [(PointNow, f64)]) {
         let key = |(now, time): &(PointNow, f64)| match self.by {
             Column::Point => now.point as f64,
@@ -47,12 +51,13 @@ impl Sorting {
         }
     }
 
+    /// Sorts by a column. A second click on the same column reverses the order.
     fn click(&mut self, column: Column) {
         *self = Self { by: column, reversed: self.by == column && !self.reversed };
     }
 }
 
-/// Draws the table. Returns the time of a click.
+/// Draws the table with the given height in screen points. Returns the time to move to if the user clicked on a point.
 pub fn ui(ui: &mut Ui, shown: &ShownModel<'_>, sorting: &mut Sorting, height: f32) -> Option<f64> {
     let model = &shown.linearised.model;
     let with_time = |now: &PointNow| Some((*now, model.points.get(now.point)?.moment.time));

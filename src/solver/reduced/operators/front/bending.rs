@@ -1,5 +1,6 @@
-//! Changes of the deformations K V (of the modes) and K P (of the pressure) by the boundary B: at stored positions of
-//! B, and by the nodes in between.
+//! Effect of the cavitation boundary B on the deformations of a reduced contact: K V of the modes V and K P of the
+//! pressure P, where behind B both V and P are cut off. K V is stored for a few positions of B, and the nearest one is
+//! in use. The nodes between this position and B are then added or removed one by one.
 
 use super::Front;
 use crate::solver::discrete::reynolds::CENTER;
@@ -11,46 +12,54 @@ use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatMut, MatRef, Par};
 use std::ops::Range;
 
-/// Maximum number of positions of B with stored K V, and their maximum memory in bytes. A solve uses the nearest
-/// position.
+/// Maximum number of positions of B for which K V is stored.
 const KEPT: usize = 8;
+/// Maximum memory of all stored K V in bytes. One is stored in any case.
 const KEPT_BYTES: usize = 16 << 20;
 
-/// K V at one position of B.
+/// K V and other products of the modes V, all cut off at one position of B.
 pub(super) struct StoredFront {
-    /// Number of nodes that carry pressure, for each line.
+    /// Position of B: for each line, the number of nodes that carry pressure among those that B may pass.
     pub fronts: Vec<usize>,
-    /// K V at the support, row-major. For the position in use it is stored in the basis of the system.
+    /// K V at the support, row-major support × modes. While this position is in use, K V is in the basis of the system
+    /// instead.
     pub deformation: Vec<f64>,
-    /// Σ v vᵀ over the nodes behind B, if modes are restrained there.
+    /// Σ v vᵀ over the nodes behind B, modes × modes, where v are the modes at a node. Zero if modes are not
+    /// restrained.
     pub behind: Mat<f64>,
-    /// wᵀ V.
+    /// wᵀ V: load of each mode, with the weights w of the nodes.
     pub load: Vec<f64>,
-    /// Contribution to the film thickness at X = 0 (and Y = 0), and the scale for which it was computed.
+    /// Registration scale for which the lift was computed, and the lift: contribution of each mode to the film
+    /// thickness at X = 0 (and Y = 0).
     pub lift: (Option<f64>, Vec<f64>),
 }
 
-/// Number of nodes whose deformation is added to the Jacobian at once.
-const TOGETHER: usize = 32;
+/// Number of nodes whose deformation is added to the Jacobian by one matrix product.
+const NODES_AT_ONCE: usize = 32;
 
-/// Work space: change of the rows by the deformation of some nodes, rows × nodes column-major, and modes at these
-/// nodes, row-major.
+/// Work space for the derivatives of the deformation, for up to [`NODES_AT_ONCE`] nodes.
 #[derive(Default)]
 pub(super) struct Bent {
+    /// Change of each row by the deformation due to unit pressure at each node, column-major rows × nodes.
     rows: Vec<f64>,
+    /// Modes at these nodes, row-major nodes × modes.
     modes: Vec<f64>,
 }
 
 impl Bent {
+    /// Allocates the work space for numbers of rows and modes.
     pub fn new(rows: usize, modes: usize) -> Self {
-        Self { rows: vec![0.0; TOGETHER * rows], modes: vec![0.0; TOGETHER * modes] }
+        Self { rows: vec![0.0; NODES_AT_ONCE * rows], modes: vec![0.0; NODES_AT_ONCE * modes] }
     }
 }
 
 impl Front {
-    /// Stores K V, given for whole modes, at positions of B that are far from each other.
+    /// Computes and stores K V for positions of B. The first one is the most central of the positions in the training;
+    /// the next ones are each as far as possible from all previous ones. `whole` is K V and `whole_load` is wᵀ V of the
+    /// modes that are not cut off.
     pub(super) fn keep(&mut self, window: &Window, whole: &[f64], whole_load: &[f64]) {
         let modes = whole_load.len();
+        // Number of nodes of the support.
         let s = whole.len() / modes;
         let most = (KEPT_BYTES / (8 * whole.len())).clamp(1, KEPT);
         let fronts = |snapshot: &Snapshot| -> Vec<usize> {
@@ -95,8 +104,8 @@ impl Front {
         }
     }
 
-    /// Returns the nodes between B and its position in K V, with +1 if they carry pressure that K V does not include,
-    /// and −1 in the opposite case.
+    /// Returns the nodes between B and the position for which K V in use was computed. The sign is +1 if a node carries
+    /// pressure that K V does not include, and −1 if K V includes a pressure that B cuts off.
     pub(super) fn between(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
         self.lines.iter().flat_map(|line| {
             let sign = if line.front > line.kept { 1.0 } else { -1.0 };
@@ -105,8 +114,8 @@ impl Front {
         })
     }
 
-    /// Determines which rows lie behind B, and which further places near B are evaluated: those of the rows just
-    /// behind it.
+    /// Determines the states of the rows: whether each lies behind B, for instance. Determines too which places of the
+    /// support near B are evaluated: those that the first row behind B uses on each line.
     pub(super) fn look_near(&mut self, system: &mut SampledSystem) {
         let SampledSystem { row_states, stencils, seen, support, transient, .. } = system;
         for ((state, (line, column)), stencil) in row_states.iter_mut().zip(&self.rows).zip(&*stencils) {
@@ -116,8 +125,8 @@ impl Front {
             } else if *column >= line.column + line.front {
                 RowState::Cavitated
             } else if support.places[stencil[CENTER]].xi < 0.0 {
-                // There is no boundary in front of the centre. A cavitated inlet of a transient contact is treated by
-                // the penalty.
+                // B always lies at X ≥ 0. At X < 0 the penalty acts, in case the inlet of a transient contact
+                // cavitates.
                 RowState::Penalised
             } else {
                 RowState::Full
@@ -127,7 +136,7 @@ impl Front {
         let near = &mut seen[1..];
         near.fill(own..own);
         if *transient || self.idle {
-            // All further places.
+            // Evaluate all places in addition to those of the sampled equations.
             near.first_mut().into_iter().for_each(|near| *near = own..end);
             return;
         }
@@ -144,8 +153,9 @@ impl Front {
         }
     }
 
-    /// Applies B to P, K P and the gradients of the coefficients. Cuts off pressures behind B, adds the deformation
-    /// by nodes between B and its position in K V at the rows' own places, and computes all fields near B.
+    /// Applies B to `fields`: P, K P and the gradients for the given coefficients, one after the other. Sets the
+    /// pressures behind B to zero. At the places of the sampled equations it adds the deformation due to the nodes
+    /// between B and the position in K V. Near B it computes all fields.
     pub(super) fn cut_and_bend(&mut self, system: &SampledSystem, coefficients: &[f64], fields: &mut [f64]) {
         let (pressure, rest) = fields.split_at_mut(self.cut.len());
         for line in &self.lines {
@@ -158,7 +168,8 @@ impl Front {
         self.spread_near(system, coefficients, fields);
     }
 
-    /// Computes P, K P and the gradients of the coefficients near B, after [`Self::find_bending`].
+    /// Computes P, K P and the gradients for the given coefficients at the places near B. Call [`Self::find_bending`]
+    /// before.
     pub(super) fn spread_near(&self, system: &SampledSystem, coefficients: &[f64], fields: &mut [f64]) {
         let (basis, near) = (&system.basis, &system.seen[1..]);
         let count = self.cut.len();
@@ -176,7 +187,8 @@ impl Front {
         }
     }
 
-    /// Computes the pressures of the coefficients that K V does not include.
+    /// Computes `bending`: the pressures for the given coefficients at the nodes between B and the position in K V.
+    /// They are negative where K V includes a pressure that B cuts off.
     pub(super) fn find_bending(&mut self, coefficients: &[f64]) {
         let mut bending = std::mem::take(&mut self.bending);
         bending.clear();
@@ -184,12 +196,12 @@ impl Front {
         self.bending = bending;
     }
 
-    /// Adds the deformation by these pressures to K P at a part of the support.
+    /// Adds the deformation due to the pressures in `bending` to K P at a part of the support.
     fn bend_part(&self, part: Range<usize>, deformation: &mut [f64]) {
         let s = self.cut.len();
         let out = &mut deformation[part.clone()];
         let bends = |k: usize| &self.bends[k * s..][part.clone()];
-        // Four nodes at once: the sums are read and written a quarter as often.
+        // With four nodes at once, the sums are read and written a quarter as often.
         let mut fours = self.bending.chunks_exact(4);
         for four in fours.by_ref() {
             let &[(k, a), (l, b), (m, c), (n, d)] = four else { continue };
@@ -200,9 +212,10 @@ impl Front {
         }
     }
 
-    /// Adds the deformation by nodes between B and its position in K V to the rows of the Jacobian. For a single line
-    /// always: there few nodes determine the film thickness, and at high M Newton's method needs more steps without
-    /// them. For many lines the cost exceeds the savings, so it is done only for `slow` iterations.
+    /// Adds the deformation due to the nodes between B and the position in K V to the rows of the Jacobian. This is
+    /// always done for a line contact: there few nodes determine the film thickness, and at high M Newton's method
+    /// needs more steps without them. For a point contact, with many lines, it saves less than it costs, so it is done
+    /// only if the iteration is `slow`.
     pub(super) fn bend(&mut self, system: &mut SampledSystem, scale: f64, slow: bool) {
         if self.idle || !(slow || self.lines.len() == 1) {
             return;
@@ -213,7 +226,7 @@ impl Front {
         let mut between = self.between();
         loop {
             let mut count = 0;
-            for (k, sign) in between.by_ref().take(TOGETHER) {
+            for (k, sign) in between.by_ref().take(NODES_AT_ONCE) {
                 let bends = &self.bends[k * s..][..s];
                 for (bent, (stencil, slopes)) in
                     own.rows[count * rows..][..rows].iter_mut().zip(stencils.iter().zip(&*by_film))
@@ -236,8 +249,8 @@ impl Front {
         self.bent = own;
     }
 
-    /// Replaces `lift`, given for whole modes, by the contribution of the cut-off modes to the film thickness at X =
-    /// 0 (and Y = 0).
+    /// Modifies `lift`, the film thickness at X = 0 (and Y = 0) per unit of each coefficient. On entry it belongs to
+    /// the whole modes, afterwards to the modes that are cut off at B.
     pub(super) fn lift(&mut self, lift: &mut [f64], Centre { window, nodes: zero, scale }: Centre<'_>) {
         let modes = lift.len();
         if self.aimed != Some(scale) {
@@ -268,7 +281,7 @@ impl Front {
     }
 }
 
-/// Returns the distance between two positions of B.
+/// Returns the distance between two positions of B: the sum over all lines, in nodes.
 fn apart(a: &[usize], b: &[usize]) -> usize {
     a.iter().zip(b).map(|(a, b)| a.abs_diff(*b)).sum()
 }
