@@ -1,4 +1,5 @@
-//! Options for a contact and its solution, shared by `solve` and `sweep`: the flags of a [`ContactSpec`].
+//! Command-line options for a contact and its solution, shared by `solve` and `sweep`. Each flag sets one field of a
+//! [`ContactSpec`].
 
 use crate::scene::named_lubricant::NAMED;
 use crate::scene::{ContactSpec, Field, Words};
@@ -12,12 +13,12 @@ use std::path::PathBuf;
 #[derive(Clone, Debug)]
 pub struct PointOptions(pub ContactSpec);
 
-/// Returns the parser for a field that is chosen by a word.
+/// Returns the parser for a field whose value is one of several words.
 pub fn choices(field: Field) -> PossibleValuesParser {
     field.choices().into_iter().map(|(word, about)| PossibleValue::new(word).help(about)).collect::<Vec<_>>().into()
 }
 
-/// Returns the flag of a field.
+/// Returns the command-line flag of a field.
 fn flag(field: Field) -> Arg {
     let facts = field.facts();
     let help = Words::Flags.help(field);
@@ -35,15 +36,15 @@ fn flag(field: Field) -> Arg {
         Field::Rom => flag.value_parser(value_parser!(PathBuf)),
         Field::Lubricant => {
             let list = NAMED.map(|named| format!("  {}: {}", named.name, named.about)).join("\n");
-            flag.value_parser(text_of(field)).long_help(format!("{help}:\n{list}"))
+            flag.value_parser(checked_text(field)).long_help(format!("{help}:\n{list}"))
         }
-        field if field.choices().is_empty() => flag.value_parser(text_of(field)),
+        field if field.choices().is_empty() => flag.value_parser(checked_text(field)),
         field => flag.value_parser(choices(field)),
     }
 }
 
-/// Returns the parser for a field that is checked as text.
-fn text_of(field: Field) -> ValueParser {
+/// Returns the parser for a field whose value is checked but passed on as text.
+fn checked_text(field: Field) -> ValueParser {
     ValueParser::new(move |text: &str| field.check(text).map(|()| text.to_owned()))
 }
 
@@ -66,7 +67,7 @@ impl FromArgMatches for PointOptions {
             let name = field.facts().name;
             let text = match field.is_switch() {
                 true => matches.get_flag(name).then_some("yes"),
-                // A default is not a statement: it would contradict what is stated by other options.
+                // Defaults are left out: they could contradict other options.
                 false if matches.value_source(name) == Some(ValueSource::DefaultValue) => None,
                 false => matches.get_one::<String>(name).map(String::as_str),
             };

@@ -1,5 +1,5 @@
-//! Answers to requests. The window, the commands, studies, bindings and campaigns all use one function, so that they
-//! report the same numbers, trust and warnings.
+//! Solves a request by the full solver or a reduced model and returns the answer: results, trust and warnings. The
+//! window, the commands, studies, bindings and campaigns all use [`answer`], so that they report the same.
 
 use super::{Answer, ContactResult, EngineError, ReducedFacts, Request};
 use crate::host::clock::Stopwatch;
@@ -13,7 +13,7 @@ use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::{Online, ReducedError, ReducedModel, ReducedSolution, Trust, Window};
 use crate::solver::warning::Warning;
 
-/// Solver for a request, with the work space of its owner.
+/// Solver for a request. Its work space belongs to the caller.
 pub enum Solver<'a> {
     /// Full system on the solver's grid, from an initial guess.
     Full(&'a mut ContactSolver, Start<'a>),
@@ -21,8 +21,7 @@ pub enum Solver<'a> {
     Reduced(&'a mut Online),
 }
 
-/// Solves a request. A solve that does not converge, or a full solve cancelled by the observer, also returns an
-/// answer.
+/// Solves a request. Also returns an answer if the solve does not converge, or if the observer cancels a full solve.
 ///
 /// # Errors
 /// If the request is refused, or the observer cancels a reduced solve.
@@ -35,7 +34,7 @@ pub fn answer(request: &Request, solver: Solver<'_>, observer: &dyn Observer) ->
     Ok(with_warnings(&problem, answer))
 }
 
-/// Returns the answer for a solution that a reduced model has computed already.
+/// Returns the answer for a solution that a reduced model has computed already. Its wall time is 0.
 ///
 /// # Errors
 /// If the request is refused, or if the solution is of another model.
@@ -44,7 +43,7 @@ pub(super) fn answer_of(request: &Request, online: &Online, solved: ReducedSolut
     Ok(with_warnings(&problem, reconstructed(request, &problem, online, (Ok(solved), 0.0))?))
 }
 
-/// Adds the warnings that follow from the result.
+/// Adds the warnings that are the same for both solvers: on grid, domain, temperatures, pressure and traction.
 fn with_warnings(problem: &Problem, mut answer: Answer) -> Answer {
     let ContactResult { warnings, traction, scalars, reduced, mixed, .. } = &mut answer.result;
     if let Some(solution) = answer.solution.as_ref().filter(|_| scalars.is_some()) {
@@ -67,6 +66,7 @@ fn with_warnings(problem: &Problem, mut answer: Answer) -> Answer {
     answer
 }
 
+/// Solves a request by the full solver.
 fn in_full(
     request: &Request,
     solver: &mut ContactSolver,
@@ -97,13 +97,14 @@ fn in_full(
     Ok(Answer { request: request.clone(), result, solution: Some(solution) })
 }
 
+/// Solves a request by a reduced model.
 fn by_model(
     request: &Request,
     problem: &Problem,
     online: &mut Online,
     observer: &dyn Observer,
 ) -> Result<Answer, EngineError> {
-    // Operators are part of the model, so the time is that of the solve only.
+    // Operators are part of the model, so the wall time does not contain their preparation.
     online.prepare(&problem.point);
     let clock = Stopwatch::start();
     let solved = online.solve_watched(&problem.point, request.lubricant, observer);
@@ -111,7 +112,8 @@ fn by_model(
     reconstructed(request, problem, online, (solved, wall_s))
 }
 
-/// Returns the answer for the end of a reduced solve that took some seconds.
+/// Returns the answer for a finished reduced solve with its wall time \[s\]. Reconstructs the fields of the solution.
+/// If the solve did not converge, the answer contains a warning.
 fn reconstructed(
     request: &Request,
     problem: &Problem,
@@ -119,18 +121,18 @@ fn reconstructed(
     (solved, wall_s): (Result<ReducedSolution, ReducedError>, f64),
 ) -> Result<Answer, EngineError> {
     let model = &online.model;
-    let (mut warnings, own) = (Vec::new(), model.domain.lubricant.cavitation);
+    let (mut warnings, trained_with) = (Vec::new(), model.domain.lubricant.cavitation);
     let trust = solved.as_ref().map_or_else(|_| model.trust(problem), |solved| solved.trust.clone());
     let trained = trust == Trust::Trained;
     warnings.extend(outside(trust));
-    // Complementarity is the limit of both other cavitation models for a large penalty and a flooded inlet. A model
-    // trained with it also covers them.
+    // Complementarity is the limit of the penalty for a large penalty factor, and of the mass-conserving model for a
+    // flooded inlet. A model trained with it also covers these two.
     let asked = request.lubricant.cavitation;
-    if own == Cavitation::Penalty && asked != own && problem.supply.is_none() {
+    if trained_with == Cavitation::Penalty && asked != trained_with && problem.supply.is_none() {
         warnings.push(Warning::CavitationOfTraining { asked: asked.name().to_owned() });
     }
-    let (place, window) = window_of(model, &problem.point)?;
-    let mut facts = ReducedFacts { size: window.size(), window: place, trained, residual_estimate: None, error: None };
+    let (index, window) = window_of(model, &problem.point)?;
+    let mut facts = ReducedFacts { size: window.size(), window: index, trained, residual_estimate: None, error: None };
     let mut effort = Effort {
         nodes: window.grid.nodes(),
         dofs: facts.size.pressure + 1,
@@ -146,7 +148,7 @@ fn reconstructed(
             (effort.dofs, effort.newton_iterations) = (facts.size.pressure + 1, solved.iterations);
             warnings.extend(solved.by_neighbour.then_some(Warning::NeighbouringModel));
             traction = solved.traction;
-            // Sliding affects the traction of a Newtonian lubricant, but not its film.
+            // The fields are valid for this problem: sliding does not change the film of a Newtonian lubricant.
             solution = Some(online.reconstruct(&solved)?.of_problem(*problem));
         }
         Err(ReducedError::Cancelled) => return Err(EngineError::Cancelled),
@@ -155,14 +157,14 @@ fn reconstructed(
             warnings.push(Warning::NoReducedSolution { reason: error.to_string() });
         }
     }
-    let mut result = ContactResult::new(request, solution.as_ref(), Some((facts, own, traction)), effort);
+    let mut result = ContactResult::new(request, solution.as_ref(), Some((facts, trained_with, traction)), effort);
     if let (Some(facts), Some(mixed), Some(rough)) = (&mut result.reduced, &result.mixed, problem.lubricant.roughness) {
         facts.error = facts.error.map(|error| error.with_boundary_friction(mixed, rough.boundary_friction));
     }
     Ok(Answer { request: request.clone(), result: ContactResult { warnings, ..result }, solution })
 }
 
-/// Returns the warning of a model that was not trained for a contact.
+/// Returns the warning for a contact outside the trained range; `None` inside.
 pub(super) fn outside(trust: Trust) -> Option<Warning> {
     match trust {
         Trust::Trained => None,
@@ -171,13 +173,16 @@ pub(super) fn outside(trust: Trust) -> Option<Warning> {
 }
 
 /// Returns the local model for a contact, with its index.
+///
+/// # Errors
+/// If the model contains no local model.
 pub(super) fn window_of<'a>(
     model: &'a ReducedModel,
     point: &OperatingPoint,
 ) -> Result<(usize, &'a Window), EngineError> {
     let none = || EngineError::Study(format!("the reduced model `{}` contains no local model", model.title));
-    let place = model.window_for(point);
-    model.windows.get(place).map(|window| (place, window)).ok_or_else(none)
+    let index = model.window_for(point);
+    model.windows.get(index).map(|window| (index, window)).ok_or_else(none)
 }
 
 #[cfg(test)]
@@ -195,11 +200,12 @@ mod tests {
     use serde::de::DeserializeOwned;
     use std::sync::Arc;
 
-    fn again<T: Serialize + DeserializeOwned>(value: &T) -> T {
+    /// Serialises a value and reads it back.
+    fn round_trip<T: Serialize + DeserializeOwned>(value: &T) -> T {
         let text = ron::to_string(value).unwrap();
-        let again = ron::from_str(&text).unwrap_or_else(|refused| panic!("{refused}: {text}"));
-        assert_eq!(ron::to_string(&again).unwrap(), text);
-        again
+        let read = ron::from_str(&text).unwrap_or_else(|refused| panic!("{refused}: {text}"));
+        assert_eq!(ron::to_string(&read).unwrap(), text);
+        read
     }
 
     #[test]
@@ -224,15 +230,15 @@ mod tests {
         assert!(by_model.result.untrained() && by_model.result.warnings.iter().any(outside));
         for answer in [in_full(Lubricant::default()), in_full(starved), by_model] {
             assert!(answer.result.converged);
-            assert_eq!(again(&answer), answer);
-            again(&Event::Message(StudyRow::Point(Arc::new(answer))));
+            assert_eq!(round_trip(&answer), answer);
+            round_trip(&Event::Message(StudyRow::Point(Arc::new(answer))));
         }
-        // The data that a thermal march keeps for the next one are not serialised but recomputed.
+        // A thermal solution contains data for the next thermal march. They are recomputed instead of serialised.
         let warm = in_full(Lubricant { heat: Some(Heat::default()), ..Lubricant::default() });
-        let read = again(&warm);
+        let read = round_trip(&warm);
         assert_eq!((&read.request, &read.result), (&warm.request, &warm.result));
         let progress = Event::<StudyRow>::Stage(Progress { stage: "solving".to_owned(), done: 1, total: 3 });
-        again(&progress);
-        again(&Event::<StudyRow>::Ended(Err("no solution".to_owned().into())));
+        round_trip(&progress);
+        round_trip(&Event::<StudyRow>::Ended(Err("no solution".to_owned().into())));
     }
 }

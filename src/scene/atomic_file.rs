@@ -1,20 +1,20 @@
-//! Replaces a file as a whole or not at all.
+//! Writes a file as a whole or not at all, and explains why a file cannot be written.
 
 use crate::host::files;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Error: a file could not be written. A file that was there before is unchanged.
+/// Error of [`replace`]. An existing file is unchanged.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot write {}: {}; choose a file in a folder that exists and may be written", path.display(), said(reason))]
 pub struct WriteError {
-    /// The file.
+    /// File that could not be written.
     pub path: PathBuf,
     /// Reason given by the system.
     pub reason: io::Error,
 }
 
-/// Returns the reason of a file error as text, including where the system itself gives only a number.
+/// Returns the reason of a file error as text. The text of the system is replaced where it is only a number.
 pub fn said(reason: &io::Error) -> String {
     match reason.kind() {
         io::ErrorKind::InvalidFilename => "its name is longer than the system accepts".to_owned(),
@@ -22,11 +22,11 @@ pub fn said(reason: &io::Error) -> String {
     }
 }
 
-/// Writes `bytes` to `path`: first to a temporary file in the same folder, then renamed, so that a failure never leaves
-/// half a file.
+/// Writes `bytes` to a temporary file in the same folder, which then replaces the file at `path`. A failure never
+/// leaves half a file.
 ///
 /// # Errors
-/// When the folder does not exist or cannot be written.
+/// If the folder does not exist or cannot be written.
 pub fn replace(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     files::replace(path, bytes).map_err(|reason| WriteError { path: path.to_owned(), reason })
 }

@@ -1,5 +1,5 @@
-//! Reads tables as text: cells of CSV files and of cells pasted from a spreadsheet, numbers without holes, and units in
-//! titles.
+//! Reads tables from text, such as a CSV file or cells pasted from a spreadsheet: cells, titles with units, and
+//! complete tables of numbers.
 
 use csv_core::ReadFieldResult;
 
@@ -26,7 +26,7 @@ pub(super) fn records(text: &str) -> Vec<(usize, Vec<String>)> {
         input = rest;
         cell.extend(out.iter().take(written));
         match result {
-            // At the end of the input, the next call ends the field. The output buffer is as long as the text.
+            // If the input is used up, the next call ends the field. The output buffer has room for the whole text.
             ReadFieldResult::InputEmpty | ReadFieldResult::OutputFull => {}
             ReadFieldResult::Field { record_end } => {
                 cells.push(String::from_utf8_lossy(&cell).into_owned());
@@ -40,7 +40,7 @@ pub(super) fn records(text: &str) -> Vec<(usize, Vec<String>)> {
     }
 }
 
-/// Splits `load [N/mm]` or `load (N/mm)` into title and unit.
+/// Splits `load [N/mm]` or `load (N/mm)` into title and unit. The unit is empty if there is none.
 pub(super) fn split_title(cell: &str) -> (&str, &str) {
     match cell.split_once(['[', '(']) {
         Some((word, unit)) => (word.trim(), unit.trim().trim_end_matches([']', ')']).trim()),
@@ -48,23 +48,25 @@ pub(super) fn split_title(cell: &str) -> (&str, &str) {
     }
 }
 
-/// Line of a text, from 1, and what is wrong there.
+/// Line number, from 1, and what is wrong on this line.
 pub(super) type LineProblem = (usize, String);
 
-/// Table of numbers without holes.
+/// Table of numbers without empty cells.
 pub(super) struct Numbers {
-    /// Titles, and the line on which they stand.
+    /// Titles of the columns.
     pub titles: Vec<String>,
+    /// Line number of the titles, from 1.
     pub title_line: usize,
-    /// Lines with as many numbers as there are titles.
+    /// Line number and numbers of each further line, one number per title.
     pub lines: Vec<(usize, Vec<f64>)>,
 }
 
-/// Reads a table of numbers. Decimal signs are points or commas. Columns whose title begins with # may hold anything;
-/// their numbers are NaN.
+/// Reads a table of numbers with a line of titles. Decimal signs are points or commas. Blank lines are skipped. Columns
+/// whose title begins with # may contain anything; their numbers are NaN.
 ///
 /// # Errors
-/// With the first line that is empty, too long or too short, or that holds something else.
+/// If there is no line of titles, or with the first line that has too many or too few cells, an empty cell, or a cell
+/// that is not a finite number.
 pub(super) fn numbers(text: &str) -> Result<Numbers, LineProblem> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let filled = |cells: &Vec<String>| cells.iter().any(|cell| !cell.trim().is_empty());
@@ -83,6 +85,7 @@ pub(super) fn numbers(text: &str) -> Result<Numbers, LineProblem> {
     Ok(Numbers { titles, title_line, lines })
 }
 
+/// Reads a cell of the column with this title.
 fn number(title: &str, cell: &str) -> Result<f64, String> {
     match cell.replace(',', ".").replace('−', "-").parse::<f64>() {
         _ if title.starts_with('#') => Ok(f64::NAN),

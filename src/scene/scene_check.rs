@@ -1,4 +1,4 @@
-//! Checks all values of a scene before anything is computed from it.
+//! Checks all values of a scene before anything is computed from it. The error names the first invalid field.
 
 use super::check::count;
 use super::check::{Checked, number, refuse};
@@ -18,7 +18,7 @@ use crate::solver::physics::lubricant::{LubricantError, ScaledShear};
 use crate::solver::physics::surfaces::LARGEST_RMS;
 
 impl Scene {
-    /// Refuses values that are not finite or out of range, and names the field.
+    /// Refuses values that are not finite, out of range, or do not match each other.
     ///
     /// # Errors
     /// With the first invalid field.
@@ -64,11 +64,11 @@ impl Scene {
     }
 }
 
+/// Checks the settings of the view.
 fn view(view: &View) -> Checked {
     for (field, loss) in [("pressure_loss", view.pressure_loss), ("deformation_loss", view.deformation_loss)] {
         loss.iter().try_for_each(|&loss| number(&format!("view.{field}"), loss, 1e-16, 0.99))?;
     }
-    let (low, high) = Quantity::RadiusY.range();
     for rms in view.surfaces.iter().flatten() {
         number("view.surfaces", *rms, 0.0, LARGEST_RMS)?;
     }
@@ -78,11 +78,11 @@ fn view(view: &View) -> Checked {
     count("view.lubricants (how many)", view.lubricants.len(), 0, KeptLubricant::MOST)?;
     for KeptLubricant { name, viscosity_pa_s, alpha_per_pa, .. } in &view.lubricants {
         count("view.lubricants.name (letters)", name.chars().count(), 1, KeptLubricant::LONGEST)?;
-        let ends = |quantity: Quantity| quantity.range();
-        let (viscosity, alpha) = (ends(Quantity::Viscosity), ends(Quantity::Alpha));
+        let (viscosity, alpha) = (Quantity::Viscosity.range(), Quantity::Alpha.range());
         number("view.lubricants.viscosity_pa_s", *viscosity_pa_s, viscosity.0, viscosity.1)?;
         number("view.lubricants.alpha_per_pa", *alpha_per_pa, alpha.0, alpha.1)?;
     }
+    let (low, high) = Quantity::RadiusY.range();
     view.radius_y_m.iter().try_for_each(|&radius_y| number("view.radius_y_m", radius_y, low, high))?;
     if !view.when_m_moves.partners().contains(&view.when_l_moves) {
         let partners = view.when_m_moves.partners().iter().map(|p| format!("{p:?}")).collect::<Vec<_>>().join(", ");
@@ -93,6 +93,7 @@ fn view(view: &View) -> Checked {
     Ok(())
 }
 
+/// Checks the expectation with this index.
 fn expectation(index: usize, entry: &Expectation) -> Checked {
     let field = format!("expect.{index} ({})", entry.name);
     let limits: &[f64] = match &entry.within {

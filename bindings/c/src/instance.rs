@@ -1,4 +1,5 @@
-//! Instance of a unit: inputs, outputs and derivatives.
+//! Instance of a Functional Mock-up Unit (FMU) of one contact. It stores the inputs and computes outputs, steps and
+//! derivatives by the reduced model in the resources of the unit.
 
 use crate::border::Refused;
 use crate::log::{Log, OK, WARNING};
@@ -14,7 +15,7 @@ use std::ffi::{c_int, c_uint};
 use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 
-/// Solver of an instance.
+/// Solver of the contact.
 enum Contact {
     /// Steady contact, solved independently at each step.
     Stationary(Box<Coupled>),
@@ -22,23 +23,27 @@ enum Contact {
     InTime(Box<InTime>),
 }
 
-/// Accepted difference between a communication point and the current time, relative to the step and to the time.
+/// Accepted difference between the start of a step and the current time: first number times the step size plus second
+/// number times the start of the step.
 const ROUNDING: (f64, f64) = (1e-6, 1e-12);
 
-/// Value of [`Instance::told`] for a contact without warnings.
-const TOLD: (bool, usize) = (false, 0);
+/// Value of [`Instance::warned`] before the first outputs.
+const NOT_WARNED: (bool, usize) = (false, 0);
 
-/// Contact of a unit with its variables.
+/// Unit: the solver of its contact, and its variables.
 pub struct Unit {
     contact: Contact,
-    /// Causality of each real variable; `None` for variables that the unit does not have.
+    /// Causality of each real variable, by value reference; `None` for variables that the unit does not have.
     roles: Vec<Option<Role>>,
-    /// Start values.
+    /// Start values of the inputs.
     first: Inputs,
 }
 
 impl Unit {
-    /// Returns the unit with this identity, from the folder of its resources.
+    /// Loads a unit from the folder of its resources. `identity` is the GUID in its model description.
+    ///
+    /// # Errors
+    /// If the model cannot be read, has another identity, or is refused.
     pub fn of(identity: Option<&str>, resources: &Path) -> Result<Self, Refused> {
         let path = resources.join(MODEL.trim_start_matches("resources/"));
         let bytes = std::fs::read(&path).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
@@ -61,11 +66,12 @@ pub struct Instance {
     pub log: Log,
     unit: Unit,
     pub state: State,
-    /// Use of the full solver and number of warnings in the last log message. A message is written only if they change.
-    told: (bool, usize),
+    /// For the last outputs: true if the full solver was used, and the number of warnings. Warnings are logged only if
+    /// these two have changed.
+    warned: (bool, usize),
 }
 
-/// Model shared by instances, freed with the last of them.
+/// Weak reference to a model that instances share. The model is freed with the last of them.
 enum SharedModel {
     Stationary(Weak<ReducedModel>),
     InTime(Weak<TrajectoryModel>),
@@ -80,9 +86,10 @@ impl SharedModel {
     }
 }
 
-/// Shared models, by the identity of their units.
+/// Shared models. Each has the identity of its unit with the load as input.
 static MODELS: Mutex<Vec<(String, SharedModel)>> = Mutex::new(Vec::new());
 
+/// Decodes a model, or returns the one that another instance already uses.
 fn shared(bytes: &[u8]) -> Result<SavedModel, Refused> {
     let name = identity(bytes, Pressed::Load);
     let mut models = MODELS.lock().unwrap_or_else(PoisonError::into_inner);
@@ -90,25 +97,25 @@ fn shared(bytes: &[u8]) -> Result<SavedModel, Refused> {
         return Ok(model);
     }
     let model = SavedModel::from_bytes(bytes)?;
-    let lent = match &model {
+    let weak = match &model {
         SavedModel::Stationary(model) => SharedModel::Stationary(Arc::downgrade(model)),
         SavedModel::InTime(model) => SharedModel::InTime(Arc::downgrade(model)),
     };
     models.retain(|(_, model)| model.upgrade().is_some());
-    models.push((name, lent));
+    models.push((name, weak));
     Ok(model)
 }
 
 impl Instance {
     /// Returns an instance before its initialisation.
     pub fn new(log: Log, unit: Unit) -> Self {
-        Self { log, state: State::first(unit.first), unit, told: TOLD }
+        Self { log, state: State::first(unit.first), unit, warned: NOT_WARNED }
     }
 
     /// Returns to the state before the initialisation.
     pub fn reset(&mut self) {
         self.state = State::first(self.unit.first);
-        self.told = TOLD;
+        self.warned = NOT_WARNED;
         if let Contact::InTime(contact) = &mut self.unit.contact {
             contact.reset();
         }
@@ -119,14 +126,14 @@ impl Instance {
         matches!(self.unit.contact, Contact::InTime(_))
     }
 
-    /// Ends the initialisation.
+    /// Ends the initialisation. Computes the outputs and returns the status of [`Self::follow`].
     pub fn exit_initialisation(&mut self) -> Result<c_int, Refused> {
         let status = self.follow()?;
         self.state.stepping = true;
         Ok(status)
     }
 
-    /// Computes the outputs if the inputs have changed. The status is "warning" if there are warnings.
+    /// Computes the outputs if the stored ones are out of date. Returns [`WARNING`] if they have warnings, else [`OK`].
     pub fn follow(&mut self) -> Result<c_int, Refused> {
         if self.state.outputs.is_none() {
             let inputs = &self.state.inputs;
@@ -146,19 +153,20 @@ impl Instance {
         Ok(if warned { WARNING } else { OK })
     }
 
-    /// Stores outputs, and logs their warnings if they are new.
+    /// Stores outputs. Logs their warnings if these have changed, see `warned`.
     fn take(&mut self, outputs: Outputs) {
         let now = (outputs.full, outputs.warnings.len());
-        let news = now != self.told && !outputs.warnings.is_empty();
+        let is_new = now != self.warned && !outputs.warnings.is_empty();
         let sentence = format!("at time {}: {}", self.state.time, outputs.warning());
-        self.told = now;
+        self.warned = now;
         self.state.outputs = Some(outputs);
-        if news {
+        if is_new {
             self.log.say(WARNING, &sentence);
         }
     }
 
-    /// Takes a step. A transient contact advances to the inputs at the end of the step.
+    /// Takes a step from `time` to `time + step` \[s\]. For a transient contact, the inputs hold at the end of the
+    /// step.
     pub fn step(&mut self, time: f64, step: f64) -> Result<c_int, Refused> {
         if !(time.is_finite() && step.is_finite() && step >= 0.0) {
             return Err(format!("a step of {step} at time {time} cannot be taken").into());
@@ -206,7 +214,7 @@ impl Instance {
         Ok(())
     }
 
-    /// Returns the value of a real variable.
+    /// Returns the value of a real variable. Computes the outputs first if it needs them.
     pub fn real(&mut self, reference: c_uint) -> Result<f64, Refused> {
         let (real, role) = self.variable(reference)?;
         if let Some(value) = real.value(role, &self.state.inputs, self.state.outputs.as_ref()) {
@@ -230,7 +238,7 @@ impl Instance {
         real.set(role, &mut inputs, value)?;
         if inputs != self.state.inputs {
             self.state.inputs = inputs;
-            // Later inputs do not change the outputs of a transient contact at the end of a step.
+            // The outputs of a transient contact at the end of a step do not depend on inputs that are set later.
             if !(self.state.stepping && self.in_time()) {
                 self.state.outputs = None;
             }
@@ -238,14 +246,15 @@ impl Instance {
         Ok(())
     }
 
-    /// Returns the value of a boolean variable, by its value reference in FMI 2.
+    /// Returns the value of a boolean variable. `reference` is its value reference in FMI 2.
     pub fn truth(&mut self, reference: usize) -> Result<bool, Refused> {
         self.follow()?;
         let (_, _, get) = TRUTHS.get(reference).ok_or_else(|| format!("there is no Boolean variable {reference}"))?;
         Ok(self.state.outputs.as_ref().is_some_and(get))
     }
 
-    /// Computes Σ seed · ∂unknown/∂known over the knowns, for each unknown.
+    /// Computes Σ seed · ∂unknown/∂known over the knowns, for each unknown. `seed` has one value per known,
+    /// `sensitivity` one per unknown. Unknowns are outputs; knowns are inputs and parameters.
     pub fn directional(
         &mut self,
         (unknowns, knowns): (&[c_uint], &[c_uint]),
@@ -264,7 +273,8 @@ impl Instance {
         Ok(())
     }
 
-    /// Computes Σ seed · ∂unknown/∂known over the unknowns, for each known.
+    /// Computes Σ seed · ∂unknown/∂known over the unknowns, for each known. `seed` has one value per unknown,
+    /// `sensitivity` one per known.
     pub fn adjoint(
         &mut self,
         (unknowns, knowns): (&[c_uint], &[c_uint]),
@@ -284,7 +294,7 @@ impl Instance {
         Ok(())
     }
 
-    /// Returns the functions that read some outputs.
+    /// Returns one function per output, which reads its value. Refuses variables that are not outputs.
     fn unknowns(&self, references: &[c_uint]) -> Result<Vec<Output>, Refused> {
         let output = |reference: &c_uint| {
             let (real, role) = self.variable(*reference)?;
@@ -295,7 +305,7 @@ impl Instance {
         references.iter().map(output).collect()
     }
 
-    /// Returns the derivative of the outputs by an input or a parameter.
+    /// Returns the derivative of all outputs by an input or a parameter.
     fn derivative(&mut self, known: c_uint) -> Result<Derivative, Refused> {
         let (real, role) = self.variable(known)?;
         let by = real
@@ -309,7 +319,7 @@ impl Instance {
     }
 }
 
-/// Refuses lists of variables and values of different length.
+/// Refuses lists of different length. `what` names the variables in the message.
 fn check_lengths(what: &str, variables: &[c_uint], values: &[f64]) -> Result<(), Refused> {
     let (variables, values) = (variables.len(), values.len());
     if variables == values {

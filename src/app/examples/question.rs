@@ -1,8 +1,8 @@
-//! Question of a scene in one sentence.
+//! Question that a scene answers, as one sentence. It is shown in the window of example scenes and above an opened one.
 
 use crate::scene::{Scene, Study};
 
-/// Returns the question of a scene.
+/// Returns the question of a scene. It depends on the study and its methods.
 pub fn question(scene: &Scene) -> String {
     let reduced = scene.study.methods().iter().any(|method| method.model().is_some());
     let by = if reduced { "in full and reduced" } else { "in full" };

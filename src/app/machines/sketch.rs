@@ -8,14 +8,18 @@ use std::f64::consts::{PI, TAU};
 /// Height of the sketch \[points\].
 const HEIGHT: f32 = 130.0;
 
-/// Drawing area with a scale, origin in metres.
+/// Drawing area with a scale. Its functions take coordinates in metres.
 struct Sheet {
     painter: Painter,
+    /// Screen position of the point (0, 0).
     origin: Pos2,
     /// Points per metre.
     scale: f32,
+    /// Stroke of outlines.
     line: Stroke,
+    /// Stroke of auxiliary lines.
     faint: Stroke,
+    /// Colour of the contact.
     mark: Color32,
 }
 
@@ -34,7 +38,7 @@ impl Sheet {
         }
     }
 
-    /// Returns the place of a point \[m\]; y points upwards.
+    /// Returns the screen position of a point \[m\]; y points upwards.
     fn at(&self, x: f64, y: f64) -> Pos2 {
         self.origin + self.scale * vec2(x as f32, -y as f32)
     }
@@ -43,12 +47,14 @@ impl Sheet {
         self.painter.circle_stroke(self.at(x, y), radius as f32 * self.scale, stroke);
     }
 
+    /// Marks the contact.
     fn mark(&self, x: f64, y: f64) {
         self.painter.circle_filled(self.at(x, y), 3.5, self.mark);
     }
 }
 
-/// Draws the sketch. Nothing is drawn of a machine that does not exist.
+/// Draws the sketch of a machine, `width` points wide. `modulus_pa` is the reduced modulus E′ \[Pa\], needed for a
+/// bearing. Draws nothing if the data of the machine are refused.
 pub(super) fn ui(ui: &mut Ui, machine: &Machine, modulus_pa: f64, width: f32) {
     let (rect, _) = ui.allocate_exact_size(Vec2::new(width, HEIGHT), Sense::hover());
     match machine {
@@ -58,7 +64,8 @@ pub(super) fn ui(ui: &mut Ui, machine: &Machine, modulus_pa: f64, width: f32) {
     }
 }
 
-/// Draws rings and elements, loaded from above: the direction of the load is downwards.
+/// Draws the rings and the rolling elements. The radial load points downwards. A more heavily loaded element has a
+/// stronger colour.
 fn bearing_ui(ui: &Ui, rect: Rect, bearing: &Bearing, modulus_pa: f64) {
     let Ok(state) = bearing.state(modulus_pa) else { return };
     let (pitch, element) = (0.5 * bearing.pitch_diameter_m, 0.5 * bearing.element_diameter_m);
@@ -84,7 +91,7 @@ fn gear_ui(ui: &Ui, rect: Rect, pair: &GearPair) {
     let [first, second] = geometry.tip_radii_m;
     let size = 1.6 * first.min(second);
     let sheet = Sheet::new(ui, rect, (2.0 * size, size));
-    // The pitch point is the origin, the pinion is at the left.
+    // The pitch point is the origin. The pinion is at the left.
     let ratio = f64::from(pair.teeth.0) / f64::from(pair.teeth.0 + pair.teeth.1);
     let centres = [-geometry.centre_distance_m * ratio, geometry.centre_distance_m * (1.0 - ratio)];
     for (k, centre) in centres.into_iter().enumerate() {
@@ -92,6 +99,7 @@ fn gear_ui(ui: &Ui, rect: Rect, pair: &GearPair) {
         sheet.circle((centre, 0.0), geometry.base_radii_m[k], sheet.faint);
     }
     let (sine, cosine) = geometry.working_angle.sin_cos();
+    // Screen position of a point on the path of contact.
     let on = |position: f64| sheet.at(position * sine, position * cosine);
     let (from, to) = geometry.path;
     sheet.painter.line_segment([on(from), on(to)], Stroke::new(2.0, sheet.mark.gamma_multiply(0.6)));
@@ -102,7 +110,7 @@ fn gear_ui(ui: &Ui, rect: Rect, pair: &GearPair) {
 fn cam_ui(ui: &Ui, rect: Rect, cam: &CamFollower) {
     let (Ok(_), Ok(curve)) = (cam.state(), cam.lift.curve()) else { return };
     let roller = if let Follower::Roller { radius_m } = cam.follower { radius_m } else { 0.0 };
-    // Place of the contact seen along the axis of the follower.
+    // Contact point on the cam: coordinates along the axis of the follower and at right angles to it.
     let contact = |angle: f64| {
         let [lift, slope, _] = curve.at(angle);
         let radius = cam.base_radius_m + roller + lift;

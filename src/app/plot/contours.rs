@@ -2,10 +2,10 @@
 
 use std::collections::HashMap;
 
-/// Contour line as places (X, Y).
+/// Contour line: its points (X, Y) in order.
 pub type Polyline = Vec<[f64; 2]>;
 
-/// Field for contour lines: values at nodes (i, j) with the index i·n_y + j.
+/// Field for contour lines: values at nodes (i, j), i along X and j along Y, with the index i·n_y + j.
 pub struct Field<'a> {
     /// Abscissae.
     pub x: &'a [f64],
@@ -14,7 +14,7 @@ pub struct Field<'a> {
     pub values: &'a [f64],
 }
 
-/// Edge of the grid: from a node to its neighbour along X if true, along Y if false.
+/// Edge of the grid: a node, and true for the edge to its neighbour along X or false for the one along Y.
 type Edge = (usize, bool);
 
 impl Field<'_> {
@@ -48,7 +48,7 @@ impl Field<'_> {
         self.joined(&segments, level)
     }
 
-    /// Returns the place where the level crosses an edge.
+    /// Returns the point where the level crosses an edge.
     fn crossing(&self, (node, along_x): Edge, level: f64) -> [f64; 2] {
         let ny = self.y.len();
         let other = if along_x { node + ny } else { node + 1 };
@@ -58,18 +58,19 @@ impl Field<'_> {
         [between(self.x, node / ny, other / ny), between(self.y, node % ny, other % ny)]
     }
 
+    /// Joins segments that share an edge to polylines.
     fn joined(&self, segments: &[[Edge; 2]], level: f64) -> Vec<Polyline> {
-        let mut at: HashMap<Edge, Vec<usize>> = HashMap::with_capacity(segments.len() + 1);
+        let mut segments_at: HashMap<Edge, Vec<usize>> = HashMap::with_capacity(segments.len() + 1);
         for (k, segment) in segments.iter().enumerate() {
             for edge in segment {
-                at.entry(*edge).or_default().push(k);
+                segments_at.entry(*edge).or_default().push(k);
             }
         }
         let mut used = vec![false; segments.len()];
-        // Follows unused segments from the end of a line.
+        // Follows unused segments from an edge and returns the points beyond it.
         let walk = |mut edge: Edge, used: &mut Vec<bool>| {
             let mut path = Vec::new();
-            while let Some(&next) = at.get(&edge).and_then(|all| all.iter().find(|&&k| !used[k])) {
+            while let Some(&next) = segments_at.get(&edge).and_then(|all| all.iter().find(|&&k| !used[k])) {
                 used[next] = true;
                 let [a, b] = segments[next];
                 edge = if a == edge { b } else { a };

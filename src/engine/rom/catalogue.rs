@@ -1,4 +1,5 @@
-//! Catalogue entry of a model file, read without its arrays.
+//! Catalogue entry of a model file: kind, title, trained range, size and hash. It is read from the directory of the
+//! file, without decoding its arrays.
 
 use super::container::{Contents, ModelKind};
 use super::error::ModelFileError;
@@ -10,22 +11,22 @@ use crate::solver::reduced::Domain;
 /// Properties of a model, read from the directory of its file. No array is decoded.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Catalogue {
-    /// Steady or transient.
+    /// Steady or transient model.
     pub kind: ModelKind,
-    /// Contact kind.
+    /// Line or point contact.
     pub contact: ContactKind,
-    /// Title.
+    /// Title for display.
     pub title: String,
-    /// Trained range; for a transient model that of its reference contacts.
+    /// Trained range. For a transient model, the range of its reference contacts.
     pub domain: Domain,
     /// Size of the file \[bytes\].
     pub bytes: usize,
-    /// Hash of the content.
+    /// Hash of the content, as stored in the header.
     pub hash: u64,
 }
 
 impl Catalogue {
-    /// Reads the entry from the content of a file. Does not check the hash.
+    /// Reads the entry from a whole file. Does not check the hash.
     ///
     /// # Errors
     /// If the file has another format or version, is truncated, or has a damaged directory.
@@ -33,7 +34,7 @@ impl Catalogue {
         Self::from(&Contents::unchecked(bytes)?, bytes)
     }
 
-    /// Reads the entry from header and directory alone.
+    /// Reads the entry from the beginning of a file, with header and directory. The arrays may be missing.
     ///
     /// # Errors
     /// As [`Self::of`].

@@ -1,10 +1,11 @@
-//! Spelling of fields in each interface.
+//! Spells the fields of a contact for messages and help texts as the user of each interface writes them: as flags,
+//! Python keywords, table columns, scene fields or variables of a Functional Mock-up Unit.
 
 use super::fields::Field;
 use super::words::Words;
 
 impl Words {
-    /// Returns the spelling of a field.
+    /// Returns the spelling of a field, such as `--radius-y`.
     pub fn of(self, field: Field) -> String {
         let facts = field.facts();
         match self {
@@ -17,7 +18,7 @@ impl Words {
         }
     }
 
-    /// Returns the spelling of a field with a value.
+    /// Returns the spelling of a field with a value, such as `--grid model`.
     pub fn with(self, field: Field, value: &str) -> String {
         match self {
             Self::Keywords => format!("{}\"{value}\"", self.of(field)),
@@ -25,7 +26,8 @@ impl Words {
         }
     }
 
-    /// Replaces fields written as `<radius-y>` or `<grid=model>` in a sentence.
+    /// Replaces marks such as `<radius-y>` or `<grid=model>` in a sentence by the spelling of the field and of its
+    /// value, if there is one.
     pub fn spelled(self, sentence: &str) -> String {
         let (mut said, mut rest) = (String::new(), sentence);
         while let Some((before, after)) = rest.split_once('<') {
@@ -44,7 +46,7 @@ impl Words {
         said + rest
     }
 
-    /// Returns the spelling of the text between angle brackets; `None` if it is not a field.
+    /// Returns the spelling for the text between angle brackets; `None` if it names no field.
     fn marked(self, mark: &str) -> Option<String> {
         match mark.split_once('=') {
             None => Field::named(mark).map(|field| self.of(field)),
@@ -52,7 +54,7 @@ impl Words {
         }
     }
 
-    /// Returns description, unit and note for a list of options.
+    /// Returns the help text of a field: description, unit and note.
     pub fn help(self, field: Field) -> String {
         let facts = field.facts();
         let unit = match facts.units() {

@@ -1,4 +1,5 @@
-//! Distance-measure study: weights of the distance measure by (3.9), with the correlation (3.8) that they reach.
+//! Distance-measure study. A distance measure s estimates from the parameters of two contacts how much their solutions
+//! differ. The study fits its weights by (3.9) and reports the correlation (3.8) of s with the distances of solutions.
 
 use super::question::{
     Chart, ChartAxis, Checked, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
@@ -11,7 +12,7 @@ use crate::solver::physics::contact::Moes;
 use crate::solver::training::distance::{Candidate, DISSERTATION, FURTHER, Fit, correlation, fit};
 use serde::{Deserialize, Serialize};
 
-/// Weights of the distance measure (3.20), determined by (3.9) from full solutions at random points (3.17).
+/// Fits the weights of the distance measure (3.20) by (3.9) to full solutions at random points (3.17).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct DistanceMeasure {
@@ -32,17 +33,17 @@ pub struct Row {
     pub full_failures: usize,
     /// Fit with the two functions of (3.20).
     pub two: Fit,
-    /// Correlation δ with the weights printed in (3.20).
+    /// Correlation δ, (3.8), with the weights printed in (3.20); 1 is perfect.
     pub printed: f64,
-    /// Fit with all candidate functions.
+    /// Fit with all candidate functions, those of (3.20) and further ones.
     pub all: Fit,
     /// Correlation δ of each candidate function alone.
     pub alone: Vec<f64>,
-    /// All pairs of solutions.
+    /// All pairs of converged solutions.
     pub pairs: Vec<Pair>,
 }
 
-/// Distance of two solutions, and distances by the measures.
+/// Distance of two solutions, and its estimates by two distance measures.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Pair {
     /// The contacts.
@@ -51,13 +52,14 @@ pub struct Pair {
     pub distance: f64,
     /// Measure (3.20) with its printed weights.
     pub printed: f64,
-    /// Measure of all candidates with their fitted weights.
+    /// Measure of all candidate functions with their fitted weights.
     pub all: f64,
 }
 
-/// Weights printed in (3.20).
+/// Weights of the two functions as printed in (3.20).
 const PRINTED: [f64; 2] = [1.0, 0.001];
 
+/// Returns all candidate functions of a distance measure, those of (3.20) first.
 fn candidates() -> impl Iterator<Item = Candidate> {
     DISSERTATION.into_iter().chain(FURTHER)
 }
@@ -80,7 +82,7 @@ impl Question for DistanceMeasure {
         let solutions = full_solutions(|_| grid.clone(), &drawn, experiment.lubricant, observer)?;
         let (mut kept, mut states) = (Vec::new(), Vec::new());
         for solution in solutions.into_iter().flatten() {
-            // z = (P, δ, H₀) at the nodes, in the Euclidean norm of (3.6).
+            // State z of a solution: P and the deformation δ at the nodes, and H₀. Distances are Euclidean, (3.6).
             let h_0 = solution.scalars.h_0;
             let mut z = solution.pressure;
             z.extend(solution.film.iter().zip(&solution.x).map(|(h, x)| h - h_0 - 0.5 * x * x));
@@ -111,9 +113,9 @@ impl Question for DistanceMeasure {
         Ok(())
     }
 
-    /// Values: `correlation` and `ratio` (weight of (ΔL)² over that of the M term) for the two functions of (3.20),
-    /// `correlation_printed` for their printed weights 1 : 0.001, `correlation_all` and `weight.…` for all candidates
-    /// together, `alone.…` for each candidate alone.
+    /// Adds `points` and `full_failures`; `correlation` and `ratio` (weight of (ΔL)² over that of the M term) for the
+    /// two functions of (3.20); `correlation_printed` for their printed weights 1 : 0.001; `correlation_all` and
+    /// `weight.…` for all candidates together; and `alone.…` for each candidate alone.
     fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
         for row in rows {
             found.push("points", None, row.solutions as f64);

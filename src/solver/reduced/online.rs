@@ -1,4 +1,5 @@
-//! Online phase: selection of the local model and of initial guesses, and reconstruction of fields.
+//! Online phase of a reduced model. For a contact it selects the local model, runs Newton's method on the sampled
+//! equations from several initial guesses, and blends neighbouring local models. Fields are reconstructed on request.
 
 mod attempt;
 mod fields;
@@ -28,24 +29,25 @@ use std::sync::Arc;
 
 /// Maximum number of Newton steps before another initial guess is tried. Good guesses need 4; iterations with more
 /// than 12 rarely converge.
-const FIRST_ATTEMPTS: usize = 12;
+const STEPS_PER_GUESS: usize = 12;
 
-/// Shares of the modes with which an iteration for a circular contact is tried. With all modes the sampled equations
-/// may have no solution, because the last modes hardly appear in any pressure and a shared basis represents them only
-/// in part. With fewer modes these contacts converge, with an error of the central film thickness of up to 3.4e-3. For
-/// shear-thinning or thermal circular contacts other initial guesses are tried first. Line contacts need all modes.
+/// Shares of the modes, tried one after the other for a circular contact. With all modes the sampled equations may have
+/// no solution, because the last modes hardly appear in any pressure and a shared basis represents them only in part.
+/// With fewer modes these contacts converge, with an error of the central film thickness of up to 3.4e-3. For
+/// shear-thinning or thermal contacts, shares below 1 are tried last. Line contacts need all modes.
 static SHARES: [f64; 5] = [1.0, 0.875, 0.75, 0.625, 0.5];
 
-/// Reduced model with the operators for the selected numbers of modes, and all work space.
+/// Online solver: reduced model, operators for the selected numbers of modes, and work space.
 pub struct Online {
-    /// Model.
+    /// Reduced model.
     pub model: Arc<ReducedModel>,
     options: ReducedOptions,
     /// Operators of each local model, built at first use.
     windows: Vec<OnceCell<Operators>>,
-    /// Kriging of each local model around an anchor, built at first use; `None` if it has too few solutions.
+    /// Kriging of the initial guess, one per local model, built at first use. `None` if there are too few solutions.
+    /// Used only in local models around an anchor or of rough contacts.
     krigings: Vec<OnceCell<Option<Kriging>>>,
-    /// Last converged solutions, which start the next solve during dragging or along a curve.
+    /// Last converged solutions: initial guesses of the next solve during dragging or along a curve.
     former: Former,
 }
 
@@ -81,12 +83,12 @@ impl Online {
 
     /// Solves a contact. Initial guesses are tried in this order:
     ///
-    /// 1. kriging, in a local model around an anchor; with heat it comes after 2;
-    /// 2. extrapolation of the last two solutions, or the last solution, if the contact is near and there is no
-    ///    kriging;
-    /// 3. interpolation between the snapshots around the point;
-    /// 4. the nearest snapshot by (3.20);
-    /// 5. continuation from that snapshot.
+    /// 1. kriging, in a local model around an anchor or of rough contacts; with heat it comes after 2;
+    /// 2. extrapolation of the last two solutions, or the last solution, if the contact is near. An isothermal contact
+    ///    with kriging omits these;
+    /// 3. interpolation between the snapshots (training solutions) around the contact;
+    /// 4. the nearest snapshot by the distance measure (3.20);
+    /// 5. continuation in small steps from that snapshot.
     ///
     /// # Errors
     /// [`ReducedError`] if the point is refused or Newton's method does not converge.
@@ -103,10 +105,10 @@ impl Online {
         &mut self,
         point: &OperatingPoint,
         lubricant: Lubricant,
-        wish: &dyn Observer,
+        observer: &dyn Observer,
     ) -> Result<ReducedSolution, ReducedError> {
-        let solved = self.solved(point, lubricant, Watch::of(wish));
-        if wish.cancelled() {
+        let solved = self.solved(point, lubricant, Watch::of(observer));
+        if observer.cancelled() {
             // A cancellation may have stopped the attempts of one local model only.
             self.forget();
             return Err(ReducedError::Cancelled);
@@ -125,6 +127,8 @@ impl Online {
         self.solved(point, lubricant, Watch { rows: Some(rows), ..Watch::of(&()) })
     }
 
+    /// Solves a contact in its local model and blends in the neighbouring ones. Refuses an implausible solution outside
+    /// the trained range.
     fn solved(
         &mut self,
         point: &OperatingPoint,
@@ -132,20 +136,20 @@ impl Online {
         mut watch: Watch<'_>,
     ) -> Result<ReducedSolution, ReducedError> {
         let index = self.model.window_for(point);
-        let wish = watch.wish;
+        let observer = watch.wish;
         let (mut solved, blended) = match self.iterated(index, point, lubricant, &mut watch) {
             Ok(solved) => (solved, self.model.blended(point.moes())),
-            // The next local model covers contacts near the common border. Its error here was not measured.
+            // The next local model also covers contacts near the common border. Its errors were not measured there.
             Err(why @ ReducedError::NotConverged { .. }) => {
                 let next = self.model.next_anchor(point.moes(), index).ok_or(why.clone())?;
-                let solved = self.iterated(next, point, lubricant, &mut Watch::of(wish)).map_err(|_| why)?;
+                let solved = self.iterated(next, point, lubricant, &mut Watch::of(observer)).map_err(|_| why)?;
                 (ReducedSolution { error: None, by_neighbour: true, ..solved }, Vec::new())
             }
             Err(why) => return Err(why),
         };
         for (share, further) in blended {
-            // If the other local model has no solution, the own one is used alone.
-            if let Ok(other) = self.iterated(further, point, lubricant, &mut Watch::of(wish)) {
+            // A local model without a solution is left out of the blend.
+            if let Ok(other) = self.iterated(further, point, lubricant, &mut Watch::of(observer)) {
                 solved.beside.push((share, other));
             }
         }
@@ -160,7 +164,7 @@ impl Online {
         }
     }
 
-    /// Returns the reason why a solution outside the trained range is not accepted; `None` if it is.
+    /// Returns the reason why a solution outside the trained range is not accepted; `None` for an accepted one.
     fn doubt(&self, solved: &ReducedSolution) -> Result<Option<String>, ReducedError> {
         let window = self.model.windows.get(solved.window).ok_or(ReducedError::Empty)?;
         if let Some(why) = window.residual_doubt(solved.residual_estimate) {
@@ -173,7 +177,7 @@ impl Online {
         Ok((lowest.is_nan() || lowest <= 0.0).then(|| format!("its film thickness falls to H = {lowest:.1e}")))
     }
 
-    /// Runs Newton's method from one initial guess after the other.
+    /// Runs Newton's method in one local model, from one initial guess after the other until it converges.
     fn iterated(
         &mut self,
         index: usize,
@@ -196,14 +200,14 @@ impl Online {
         if problem.shear.is_some() && !self.model.slides() {
             return Err(ReducedError::ShearThinning);
         }
-        // The equations use the contact's own α and plateau ratio. Initial guesses are those of a contact with the
-        // trained Eyring stress.
+        // `own` is the problem whose equations are solved, with the contact's own α and plateau ratio. `point` selects
+        // the initial guesses: it is the equivalent contact with the trained Eyring stress or roughness.
         let model = Arc::clone(&self.model);
         let point = &model.domain.as_trained(&problem.point, &problem.lubricant);
         let own = model.domain.as_solved(&problem)?;
         let kriged = self.kriged(index, point);
-        // An isothermal kriging prediction depends on the contact alone, so that the result does not depend on
-        // previous solutions.
+        // An isothermal kriging prediction depends on the contact alone. If it comes first, the result does not depend
+        // on previous solutions.
         let former_first = kriged.is_none() || problem.heat.is_some();
         let (Some(window), Some(cell)) = (model.windows.get(index), self.windows.get_mut(index)) else {
             return Err(ReducedError::Empty);
@@ -227,15 +231,15 @@ impl Online {
             kriged.iter().flat_map(move |guess| shares.iter().map(|share| guess.with_modes(*share)))
         };
         for guess in former.chain(with(at_once)).chain(interpolated.chain(nearest).flatten()) {
-            match attempt(window, operators, &own, &guess, FIRST_ATTEMPTS, &self.options, watch) {
+            match attempt(window, operators, &own, &guess, STEPS_PER_GUESS, &self.options, watch) {
                 Ok(found) => return Ok(self.keep(&problem, index, found)),
                 Err(error) => last = error,
             }
         }
-        // If all guesses fail: fewer modes, then continuation from the nearest snapshot. With heat a failed
-        // continuation takes seconds.
+        // If all guesses fail, fewer modes are tried, then continuation from the nearest snapshot. The latter comes
+        // last, because with heat a failed continuation takes seconds.
         let fewer = with(at_last)
-            .find_map(|guess| attempt(window, operators, &own, &guess, FIRST_ATTEMPTS, &self.options, watch).ok());
+            .find_map(|guess| attempt(window, operators, &own, &guess, STEPS_PER_GUESS, &self.options, watch).ok());
         let found = fewer.or_else(|| {
             let (snapshot, _) = window.nearest(point)?;
             walk(window, operators, &own, snapshot, &self.options, watch)
@@ -249,7 +253,7 @@ impl Online {
         }
     }
 
-    /// Returns the kriging prediction in a local model around an anchor.
+    /// Returns the kriging prediction of the initial guess; `None` if the local model has no kriging.
     fn kriged(&self, index: usize, point: &OperatingPoint) -> Option<Guess> {
         let by_kriging = |window: &&Window| window.anchor.is_some() || window.is_rough();
         let window = self.model.windows.get(index).filter(by_kriging)?;
@@ -260,7 +264,8 @@ impl Online {
             .start(window, point)
     }
 
-    /// Solves a contact from one snapshot of its local model only and reports every iterate, for the training.
+    /// Solves a contact with one snapshot of its local model as the only initial guess, for the training. Passes every
+    /// iterate to `observer`.
     pub(crate) fn solve_from(
         &mut self,
         snapshot: &Snapshot,
@@ -289,7 +294,7 @@ impl Online {
         self.solution_of(problem, window, found)
     }
 
-    /// Returns a solution with its trust and its error estimate.
+    /// Returns a converged iteration as a solution, with its trust and its error estimate.
     fn solution_of(&self, problem: &Problem, window: usize, found: Found) -> ReducedSolution {
         let Found { coefficients, h_0, h_c, iterations, residual, traction, fronts, heat } = found;
         let domain = &self.model.domain;
@@ -321,19 +326,19 @@ impl Online {
             window.likely_error(&features, &problem.point, problem.lubricant.cavitation)
         });
         if let Some(estimate) = solved.error.as_mut().filter(|estimate| estimate.traction.is_some()) {
-            // No error estimate for an unphysical traction, nor for one limited in a way that was not trained.
-            // Of rough contacts it was measured with a limiting stress.
-            let meant = problem.traction_warning().is_none()
+            // The error is not known for an unphysical traction, or for a limiting stress that was not trained. For
+            // rough contacts it was measured with a limiting stress.
+            let measured = problem.traction_warning().is_none()
                 && (problem.rough.is_none() || problem.lubricant.limiting_stress.is_some())
                 && (knows_traction || !(domain.is_shear_thinning() && domain.space.varies_lubricant()));
-            estimate.traction = estimate.traction.filter(|_| meant);
+            estimate.traction = estimate.traction.filter(|_| measured);
         }
         solved
     }
 }
 
 impl ReducedSolution {
-    /// Returns true if the film is hotter than lubricants endure. Such a solution has no error estimate.
+    /// Returns true if the film is hotter than lubricants endure, `ENDURED_K`. Such a solution has no error estimate.
     pub fn is_too_hot(&self) -> bool {
         let inlet_k = self.lubricant.heat.map_or(f64::NAN, |heat| heat.inlet_temperature);
         self.heat.as_ref().is_some_and(|heat| heat.hottest_k(inlet_k) > ENDURED_K)
@@ -341,8 +346,8 @@ impl ReducedSolution {
 }
 
 impl ReducedModel {
-    /// Returns the shares of the modes that are tried for each kriging prediction, and those tried after all guesses
-    /// failed.
+    /// Returns two lists of shares of the modes for a kriging prediction: those tried at once, and those tried after
+    /// all other guesses have failed.
     fn shares_of_modes(&self) -> (&'static [f64], &'static [f64]) {
         match (self.contact(), self.slides()) {
             (ContactKind::Point, false) => (&SHARES, &[]),
@@ -352,11 +357,12 @@ impl ReducedModel {
     }
 }
 
-/// Returns all modes only, as for iterations that are reported to a training.
+/// Returns the same lists for iterations with all modes only. Iterations for a training use all modes.
 fn all_modes() -> (&'static [f64], &'static [f64]) {
     (SHARES.split_at(1).0, &[])
 }
 
+/// Builds the operators of a local model for the numbers of modes in `options`.
 fn operators_of(model: &ReducedModel, window: &Window, options: &ReducedOptions) -> Operators {
     let modes = options.pressure_modes.unwrap_or(usize::MAX);
     let flow = match &model.domain {

@@ -1,4 +1,5 @@
-//! Observer of a training.
+//! Observer of a training. In addition to an [`Observer`] it can save the state, and provide full solutions that were
+//! computed elsewhere.
 
 use super::error::TrainingError;
 use super::state::{Solved, TrainingState};
@@ -8,12 +9,12 @@ use std::sync::atomic::AtomicBool;
 
 /// Observer of a training.
 pub trait TrainingObserver: Observer {
-    /// Called with the state whenever full solutions are finished, so that it can be saved.
+    /// Called whenever full solutions are finished, so that the state can be saved.
     fn checkpoint(&self, _state: &TrainingState) {}
 
-    /// Returns full solutions that are computed elsewhere. `asked` lists the contacts with their places in the order.
-    /// For each it returns the solution, the error, or [`TrainingError::Awaited`]. `None` if the training is to
-    /// compute them itself.
+    /// Returns full solutions that are computed elsewhere. `asked` lists the contacts with their places in the order of
+    /// planning. The result for each contact is its solution, an error, or [`TrainingError::Awaited`] if it is not
+    /// available yet. `None` if the training must compute them itself.
     fn solved_elsewhere(&self, _asked: &[(usize, OperatingPoint)]) -> Option<Vec<Result<Solved, TrainingError>>> {
         None
     }

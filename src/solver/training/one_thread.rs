@@ -1,5 +1,6 @@
-//! Uninterruptible work (a decomposition, a kernel, a plan of many points) on a separate thread, so that a
-//! cancellation need not wait for it; and work of many parts on all threads.
+//! Runs parts of a training so that they can be cancelled. Uninterruptible work (a decomposition, a kernel, a plan of
+//! many points) runs on a separate thread, and a cancellation does not wait for it. Work of many items runs on all
+//! threads.
 
 use super::error::TrainingError;
 use crate::host::pool;
@@ -17,8 +18,9 @@ pub fn on_one_thread<T: Send + 'static>(
     pool::on_one_thread(|| !observer.cancelled(), work).ok_or(TrainingError::Cancelled)
 }
 
-/// Runs `work` for every item on all threads. Each thread creates its work space by `tool`. Returns the results in
-/// the order of the items.
+/// Runs `work` for every item on all threads, with the work space of the thread, the index of the item, and the item.
+/// `tool` creates a work space. `stage` names the work in reports of progress. Returns the results in the order of the
+/// items.
 ///
 /// # Errors
 /// [`TrainingError::Cancelled`] if the observer cancels.

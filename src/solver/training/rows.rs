@@ -1,5 +1,6 @@
-//! Sampling of a local model's equations. The reduced model with all rows runs at random parameters; for a cubature
-//! and around anchors also at the training points. Its iterates determine the sampled equations.
+//! Selects the sampled equations (rows) of a local model, for hyper-reduction. The local model with all rows is solved
+//! at random contacts; for a cubature or around an anchor also at its training points. Rows are selected such that they
+//! reproduce the iterates of these solves.
 
 use super::cell::Cell;
 use super::error::TrainingError;
@@ -21,24 +22,26 @@ use fastrand::Rng;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// Number of random parameters at which iterates are collected by reduced solves. Thermal point contacts, for which a
-/// solve with all rows takes a second, have a smaller number, also for their training points.
+/// Number of random contacts at which iterates are collected by reduced solves.
 const ROW_SNAPSHOT_SOLVES: usize = 160;
+/// The same for thermal point contacts, and their largest number of training points. A solve with all rows takes a
+/// second.
 const ROW_SNAPSHOT_SOLVES_OF_WARM_PLANES: usize = 60;
-/// Steps smaller than this are to be reproduced in absolute terms, larger ones in relative terms.
+/// Smallest relative step by which goal equations of the residual are divided. The equations thus reproduce larger
+/// steps in relative terms and smaller ones in absolute terms.
 const STEP_FLOOR: f64 = 0.03;
-/// Number of random functionals of the step Δp̃ of the pressure coefficients per iterate, in addition to the one of the
-/// central film thickness, ΔH_c, for few and for many candidate rows.
+/// Number of random functionals of the step Δp̃ of the pressure coefficients per iterate, for few and for many
+/// candidate rows. One functional for the step ΔH_c of the central film thickness is added.
 const RANDOM_FUNCTIONALS: [usize; 2] = [6, 2];
-/// Largest permitted error of the film thickness by sampling, for nine contacts in ten: a fifth of the permitted
-/// error of a model of line contacts. The error decreases by orders of magnitude with slightly more rows. With a
-/// tenth too few, iterations may end with an error of a third.
+/// Largest accepted relative error of H_c by sampling, for nine contacts in ten: a fifth of the error accepted for a
+/// model of line contacts. Slightly more rows reduce this error by orders of magnitude. With a tenth of the rows
+/// missing, iterations may end with an error of a third.
 const MISSED_BY_ROWS: f64 = 2e-4;
-/// Factors on the requested number of rows that are tried until the error is small enough.
+/// Factors on the requested number of rows, tried in this order until the error is small enough.
 const MORE_ROWS: [f64; 4] = [1.1, 1.2, 1.35, 1.5];
-/// Number of contacts by which the error is measured.
+/// Number of random contacts at which this error is measured.
 const CONTACTS_OF_TRIAL: usize = 100;
-/// Number of candidate rows above which there are many.
+/// Number of candidate rows above which they count as many, see [`RANDOM_FUNCTIONALS`].
 const MANY_ROWS: usize = 3000;
 
 /// Reduced solve whose iterates are collected.
@@ -51,7 +54,8 @@ struct Task<'a> {
 }
 
 impl<'a> Task<'a> {
-    /// Returns the task of training point `k` of a local model; `None` if it is the only one.
+    /// Returns the task of solving training point `k` of a local model from its nearest other training point; `None` if
+    /// there is no other one.
     fn beside(window: &'a Window, k: usize, lubricant: Lubricant) -> Option<Self> {
         let point = window.snapshots[k].point;
         let far = |other: &Snapshot| separation(&point, &other.point);
@@ -70,15 +74,17 @@ impl<'a> Task<'a> {
     }
 }
 
-/// Contribution of one reduced solve.
+/// Data from one reduced solve.
 enum Evidence {
+    /// Residuals and Jacobian products of the iterates.
     Snapshots(RowSnapshots),
+    /// Equations of the iterates that a cubature should satisfy.
     Goals(GoalEquations),
 }
 
-/// Samples the equations of a local model. `exact`, this local model alone with all rows, runs at random parameters,
-/// and every iterate is collected. Around an anchor, more rows than requested are used if the error by sampling is
-/// too large. `None` if the linear algebra fails.
+/// Selects the rows of a local model. `exact` contains this local model only, with all rows; `served` are the contacts
+/// for which it is used. Around an anchor, more rows than requested are selected if the error by sampling is too large.
+/// `None` if the linear algebra fails.
 ///
 /// # Errors
 /// [`TrainingError`] if the observer cancels.
@@ -89,11 +95,11 @@ pub(super) fn sample_rows(
     rng: &mut Rng,
     observer: &dyn TrainingObserver,
 ) -> Result<Option<SampledRows>, TrainingError> {
-    let Some(shown) = Shown::by(spec, exact, served, rng, observer)? else { return Ok(None) };
-    let shown = Arc::new(shown);
+    let Some(data) = RowData::collect(spec, exact, served, rng, observer)? else { return Ok(None) };
+    let data = Arc::new(data);
     let rows = |share: f64| {
-        let (shown, per_mode) = (Arc::clone(&shown), share * spec.rows_per_mode);
-        on_one_thread(observer, move || shown.rows(&[per_mode]).pop().flatten())
+        let (data, per_mode) = (Arc::clone(&data), share * spec.rows_per_mode);
+        on_one_thread(observer, move || data.rows(&[per_mode]).pop().flatten())
     };
     let mut sampled = rows(1.0)?;
     let anchored = exact.windows.first().is_some_and(|window| window.anchor.is_some());
@@ -112,7 +118,7 @@ pub(super) fn sample_rows(
     Ok(sampled)
 }
 
-/// Contacts that were not used for sampling, with their film thicknesses by all rows.
+/// Contacts that were not used for sampling, each with its H_c computed with all rows.
 struct Trial(Vec<(OperatingPoint, f64)>);
 
 impl Trial {
@@ -127,8 +133,8 @@ impl Trial {
         Ok(Self(points.into_iter().zip(films).filter_map(|(point, film)| Some((point, film?))).collect()))
     }
 
-    /// Returns the relative error of the film thickness by sampling that nine contacts in ten do not exceed. A
-    /// contact without a solution has an infinite error.
+    /// Returns the relative error of H_c with the given rows that nine contacts in ten do not exceed. A contact without
+    /// a solution has an infinite error.
     fn missed_by(
         &self,
         spec: &TrainingSpec,
@@ -140,16 +146,16 @@ impl Trial {
         sampled.windows.iter_mut().for_each(|window| window.set_rows(spec.sampling, rows.clone()));
         let points: Vec<OperatingPoint> = self.0.iter().map(|(point, _)| *point).collect();
         let films = films(spec, &Arc::new(sampled), &points, observer)?;
-        let off =
+        let error =
             |(film, (_, exact)): (Option<f64>, &(_, f64))| film.map_or(f64::INFINITY, |h_c| (h_c / exact - 1.0).abs());
-        let mut missed: Vec<f64> = films.into_iter().zip(&self.0).map(off).collect();
-        missed.sort_by(f64::total_cmp);
-        Ok(missed.get(missed.len() * 9 / 10).copied().unwrap_or(0.0))
+        let mut errors: Vec<f64> = films.into_iter().zip(&self.0).map(error).collect();
+        errors.sort_by(f64::total_cmp);
+        Ok(errors.get(errors.len() * 9 / 10).copied().unwrap_or(0.0))
     }
 }
 
-/// Returns the central film thickness H_c of contacts by the model of one local model alone, with the initial guesses
-/// of the online phase; `None` for a contact without a solution.
+/// Solves contacts by a model with one local model. Returns the central film thickness H_c of each; `None` for a
+/// contact without a solution.
 fn films(
     spec: &TrainingSpec,
     model: &Arc<ReducedModel>,
@@ -165,9 +171,9 @@ fn films(
     })
 }
 
-/// Returns models that differ from one in the sampled equations of one local model, which are sampled again, for each
-/// number of rows per mode. An entry is `None` if the linear algebra fails. `spec` is the training specification of
-/// the model.
+/// Selects the rows of one local model again, for each number of rows per mode. Returns copies of the model with these
+/// rows. An entry is `None` if the linear algebra fails. Empty if there is no local model with this index. `spec` is
+/// the training specification of the model.
 ///
 /// # Errors
 /// [`TrainingError`] if the observer cancels.
@@ -186,9 +192,9 @@ pub fn with_rows(
     let cell = Cell::of_model(model, window);
     let m = if cell.is_some() { (0.0, f64::INFINITY) } else { own.m };
     let served = spec.within(m).served_by(own, cell);
-    let Some(shown) = Shown::by(spec, &exact, &served, &mut rng, observer)? else { return Ok(Vec::new()) };
+    let Some(data) = RowData::collect(spec, &exact, &served, &mut rng, observer)? else { return Ok(Vec::new()) };
     let rows_per_mode = rows_per_mode.to_vec();
-    let sampled = on_one_thread(observer, move || shown.rows(&rows_per_mode))?;
+    let sampled = on_one_thread(observer, move || data.rows(&rows_per_mode))?;
     let with = |rows: SampledRows| {
         let mut other = model.clone();
         if let Some(place) = other.windows.get_mut(window) {
@@ -200,18 +206,21 @@ pub fn with_rows(
     Ok(sampled.into_iter().map(|rows| rows.map(with)).collect())
 }
 
-/// Iterates of reduced solves with all rows of a local model.
-struct Shown {
+/// Data from all reduced solves of a local model with all rows, by which rows are selected.
+struct RowData {
     test: Arc<TestSpace>,
+    /// Methods by which rows are selected.
     of: (Scheme, Sampling),
+    /// Empty for a cubature.
     rows: RowSnapshots,
+    /// Empty except for a cubature.
     equations: GoalEquations,
 }
 
-impl Shown {
-    /// Runs `exact` at random parameters and, for a cubature and around anchors, at its training points. `None` for a
+impl RowData {
+    /// Solves random contacts by `exact` and, for a cubature or around an anchor, its training points. `None` for a
     /// model without a local model.
-    fn by(
+    fn collect(
         spec: &TrainingSpec,
         exact: &Arc<ReducedModel>,
         served: &Within,
@@ -224,40 +233,40 @@ impl Shown {
             false => (ROW_SNAPSHOT_SOLVES, usize::MAX),
         };
         let points = served.random_points(solves, rng);
-        // Every second thermal line contact has thermal constants from the range, like the contacts the model is used
-        // for.
+        // Every second thermal line contact has random thermal constants from the range, because the model is used with
+        // any of these.
         let mut constants = Rng::with_seed(spec.seed);
         let at = |(k, point): (usize, OperatingPoint)| {
-            let other = spec.warms_a_line() && k % 2 == 1;
+            let varied = spec.warms_a_line() && k % 2 == 1;
             let lubricant =
-                if other { spec.range.with_random_heat(spec.lubricant, &mut constants) } else { spec.lubricant };
+                if varied { spec.range.with_random_heat(spec.lubricant, &mut constants) } else { spec.lubricant };
             Task { point, lubricant, from: None }
         };
         let mut tasks: Vec<Task<'_>> = points.into_iter().enumerate().map(at).collect();
-        // Local models around anchors are used up to the ends of their cells, where few random contacts lie.
+        // Local models around anchors are used up to the borders of their cells, where few random contacts lie.
         if spec.sampling == Sampling::Cubature || window.anchor.is_some() {
             let every = window.snapshots.len().div_ceil(trainings).max(1);
             let beside = |k| Task::beside(window, k, spec.lubricant);
             tasks.extend((0..window.snapshots.len()).step_by(every).filter_map(beside));
         }
         let test = Arc::new(TestSpace::new(window.pressure.basis(), &window.grid));
-        let none = GoalEquations::over(&test);
+        let empty = GoalEquations::over(&test);
         let stage = format!("Row snapshots, M {}…{}", window.m.0, window.m.1);
         let online = || Online::new(Arc::clone(exact), ReducedOptions::default());
         let collected = in_parallel(observer, &stage, &tasks, online, |online, index, task| match spec.sampling {
             Sampling::Cubature => {
                 let mut rng = Rng::with_seed(spec.seed.wrapping_add(index as u64));
-                Evidence::Goals(goals(online, &test, none.clone(), task, &mut rng))
+                Evidence::Goals(goals(online, &test, empty.clone(), task, &mut rng))
             }
             _ => Evidence::Snapshots(snapshots(spec, online, &test, task)),
         })?;
         observer.progress(Progress { stage: "Row sampling".to_owned(), done: 0, total: 1 });
         let of = (spec.scheme, spec.sampling);
-        let all = Self { test, of, rows: RowSnapshots::default(), equations: none };
+        let all = Self { test, of, rows: RowSnapshots::default(), equations: empty };
         Ok(Some(on_one_thread(observer, move || all.with(collected))?))
     }
 
-    /// Adds the evidence of further solves.
+    /// Adds the data of further solves.
     fn with(mut self, collected: Vec<Evidence>) -> Self {
         for part in collected {
             match part {
@@ -271,7 +280,7 @@ impl Shown {
         self
     }
 
-    /// Selects the equations for each number of rows per mode; `None` if the linear algebra fails.
+    /// Selects rows for each number of rows per mode; `None` if the linear algebra fails.
     fn rows(&self, rows_per_mode: &[f64]) -> Vec<Option<SampledRows>> {
         let Self { test, of, rows, equations } = self;
         let count = |per_mode: &f64| ((test.modes.ncols() as f64 * per_mode).round() as usize).min(test.weights.len());
@@ -280,7 +289,7 @@ impl Shown {
     }
 }
 
-/// Selects equations by a scheme from snapshots or, for a cubature, from goal equations, for each count; `None` if
+/// Selects rows from snapshots or, for a cubature, from goal equations, for each number of rows in `counts`; `None` if
 /// the linear algebra fails.
 pub(super) fn rows_by(
     test: &TestSpace,
@@ -301,8 +310,8 @@ pub(super) fn rows_by(
     chosen.into_iter().map(|chosen| chosen.filter(finite)).collect()
 }
 
-/// Returns the residual and Jacobian snapshots of one solve, scaled by √w and by the largest of them. Empty if it
-/// diverges, since such iterates do not represent a good iteration.
+/// Returns the residual and Jacobian snapshots of one solve, multiplied by the factors of the scheme and normalised.
+/// Empty if it diverges, since such iterates do not represent a good iteration.
 fn snapshots(spec: &TrainingSpec, online: &mut Online, test: &TestSpace, task: &Task<'_>) -> RowSnapshots {
     let factors = spec.scheme.factors(test);
     let scaled = |v: &[f64]| -> Vec<f64> { v.iter().zip(&factors).map(|(v, factor)| v * factor).collect() };
@@ -319,7 +328,7 @@ fn snapshots(spec: &TrainingSpec, online: &mut Online, test: &TestSpace, task: &
     rows
 }
 
-/// Scales the snapshots of one solve by the largest of them.
+/// Divides the snapshots of one solve by the largest of their norms.
 fn normalise(snapshots: &mut [Vec<f64>]) {
     let norm = |v: &Vec<f64>| v.iter().map(|x| x * x).sum::<f64>().sqrt();
     let largest = snapshots.iter().map(norm).fold(0.0, f64::max);
@@ -330,14 +339,16 @@ fn normalise(snapshots: &mut [Vec<f64>]) {
     }
 }
 
-/// Returns `none` with the goal equations of every iterate of one solve; without them if it diverges.
-fn goals(online: &mut Online, test: &TestSpace, none: GoalEquations, task: &Task<'_>, rng: &mut Rng) -> GoalEquations {
-    let mut equations = none.clone();
+/// Adds the goal equations of every iterate of one solve to the collection `empty` and returns it. If the solve
+/// diverges, it remains empty.
+fn goals(online: &mut Online, test: &TestSpace, empty: GoalEquations, task: &Task<'_>, rng: &mut Rng) -> GoalEquations {
+    let mut equations = empty.clone();
     let mut keep = |iterate: &Iterate<'_>| add_goals(&mut equations, test, iterate, rng);
-    if task.solve(online, &mut keep) { equations } else { none }
+    if task.solve(online, &mut keep) { equations } else { empty }
 }
 
-/// Adds functionals of the step, each for f and for J V Δz̃.
+/// Adds the goal equations of one iterate. Sums over the sampled rows should give the same functionals of the Newton
+/// step as sums over all rows, with the residual f and with J V Δz̃ as summand.
 pub(super) fn add_goals(equations: &mut GoalEquations, test: &TestSpace, iterate: &Iterate<'_>, rng: &mut Rng) {
     let modes = iterate.coefficients.len();
     let length = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
@@ -351,7 +362,7 @@ pub(super) fn add_goals(equations: &mut GoalEquations, test: &TestSpace, iterate
         return;
     }
     let mut gauss = || (-2.0 * (1.0 - rng.f64()).ln()).sqrt() * (2.0 * PI * rng.f64()).cos();
-    // Lᵀ: random functionals of Δp̃, then the one of ΔH_c.
+    // Lᵀ: one column per random functional of Δp̃, then the one of ΔH_c.
     let random = RANDOM_FUNCTIONALS[usize::from(equations.candidates().len() > MANY_ROWS)];
     let functionals = Mat::from_fn(modes + 1, random + 1, |row, column| match (column < random, row == modes) {
         (false, true) => 1.0 / h_c,
@@ -362,7 +373,8 @@ pub(super) fn add_goals(equations: &mut GoalEquations, test: &TestSpace, iterate
     let goals = dense::solved(iterate.jacobian.transpose(), functionals);
     let share = 1.0 / ((random + 1) as f64).sqrt();
     let (first, second) = (share / change.max(STEP_FLOOR), share / change);
-    // T V_i for every row; on one thread, so that rounding does not depend on the number of threads.
+    // Goals times the test function V_i of every row i. Computed on one thread, so that rounding does not depend on the
+    // number of threads.
     let rows = test.weights.len();
     let mut tested = Mat::<f64>::zeros(rows, random + 1);
     matmul(tested.as_mut(), Accum::Replace, test.modes.as_ref(), goals.get(..modes, ..), 1.0, Par::Seq);

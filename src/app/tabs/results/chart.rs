@@ -1,4 +1,4 @@
-//! Charts of a study: lines, dots and crosses over its axes, and measured points as diamonds.
+//! Draws a chart of a study: its series as lines, dots, rings or crosses, and measured points as diamonds.
 
 use crate::app::numbers;
 use crate::app::plot::axes;
@@ -8,13 +8,15 @@ use crate::scene::{Chart, Marks};
 use egui::{Color32, Ui, Vec2b};
 use egui_plot::{Line, MarkerShape, PlotPoints, Points};
 
-/// Maximum number of series in the key above a chart. Further series are named on hover.
+/// Maximum number of series in the key (legend) above a chart. Further series are named on hover.
 const NAMED: usize = 24;
-/// Name and radius of measured points.
+/// Name of measured points in the key.
 const MEASURED: &str = "measured";
+/// Radius of the diamond of a measured point, in points of the screen.
 const DIAMOND: f32 = 4.0;
 
-/// Draws a chart with its key, and measured points. `height` is the total height; `fresh` fits the chart to its data.
+/// Draws a chart, its key and measured points in the units of its axes. `height` is the height of chart and key. If
+/// `fresh`, the view is reset to fit the data.
 pub fn ui(ui: &mut Ui, id: &str, (chart, measured): (&Chart, &[[f64; 2]]), height: f32, fresh: bool) {
     let palette = Palette::of(ui);
     let entries = chart.series.iter().enumerate().take(NAMED).map(|(k, series)| {
@@ -77,6 +79,7 @@ fn plot(ui: &mut Ui, id: &str, (chart, measured): (&Chart, &[[f64; 2]]), height:
     });
 }
 
+/// Returns the colour of series `k`.
 fn color(palette: &Palette, marks: Marks, k: usize) -> Color32 {
     if marks == Marks::Crosses {
         return palette.wrong;
@@ -87,7 +90,7 @@ fn color(palette: &Palette, marks: Marks, k: usize) -> Color32 {
     hues.get(k % hues.len()).map_or(Color32::GRAY, |hue| hue.gamma_multiply(faint))
 }
 
-/// Removes braces. They mark symbols on the screen; titles of a study contain none, but file names may.
+/// Removes braces, which would be read as marks of symbols. Titles of a study contain none, but file names may.
 fn plain(text: &str) -> String {
     text.replace(['{', '}'], "")
 }

@@ -1,31 +1,36 @@
-//! Measured points over the quantities of a chart: speed or slide-to-roll ratio, and film thickness or friction.
+//! Converts measured points to the quantities on the axes of a results chart. Measured are film thickness or friction
+//! over speed or slide-to-roll ratio (SRR).
 
 use crate::scene::{MeasuredPoint, Table, names};
 
-/// Largest relative variation of the film scale h/H for which measured film thicknesses are drawn as H.
+/// Largest relative variation of the film scale h/H \[m\] over a table for which measured film thicknesses h are
+/// converted to the dimensionless H.
 const SAME_SCALE: f64 = 1e-9;
 
-/// Returns the measured points over two quantities of results, in their units in files. `table` holds the computed
-/// values. Empty if a quantity is not measured.
+/// Returns the measured points as pairs of the quantities x and y, which are columns of result tables, in the units of
+/// these columns. `table` holds the computed values. Empty if a quantity is not measured.
 ///
-/// Measured friction coefficients are magnitudes; they get the sign of the computed ones. Slide-to-roll ratios are taken
-/// as magnitudes if no computed one is negative. A film thickness H needs one film scale of the whole table.
+/// Measured friction coefficients are magnitudes; they get the sign of the computed ones. If no computed slide-to-roll
+/// ratio is negative, the magnitudes of the measured ones are used. Film thicknesses are converted to H only if all
+/// rows of the table have the same film scale.
 pub fn points([x, y]: [&str; 2], table: &Table, measured: &[MeasuredPoint]) -> Vec<[f64; 2]> {
     let of = |name: &str| values(table, name);
+    // True if some computed SRR is negative.
     let reversed = !of(names::SRR).is_empty() && of(names::SRR).iter().any(|srr| *srr < 0.0);
-    let along = |point: &MeasuredPoint| match own(x) {
+    let along = |point: &MeasuredPoint| match quantity(x) {
         names::SPEED => point.speed_m_per_s,
         names::SRR => point.srr.map(|srr| if reversed { srr } else { srr.abs() }),
         _ => None,
     };
     let (films, tractions) = (film_scale(table), of(names::TRACTION));
+    // True if the computed friction coefficients are negative.
     let negative =
         tractions.iter().all(|traction| *traction <= 0.0) && tractions.iter().any(|traction| *traction < 0.0);
-    let value = |point: &MeasuredPoint| match own(y) {
+    let value = |point: &MeasuredPoint| match quantity(y) {
         names::H_C_M => point.film_m,
         names::H_C => Some(point.film_m? / films?),
         names::TRACTION => {
-            let backwards = if reversed && own(x) == names::SRR { point.srr? < 0.0 } else { negative };
+            let backwards = if reversed && quantity(x) == names::SRR { point.srr? < 0.0 } else { negative };
             point.friction.map(|friction| if backwards { -friction } else { friction })
         }
         _ => None,
@@ -33,25 +38,25 @@ pub fn points([x, y]: [&str; 2], table: &Table, measured: &[MeasuredPoint]) -> V
     measured.iter().filter_map(|point| Some([along(point)?, value(point)?])).collect()
 }
 
-/// Returns the name of a column without its method.
-fn own(column: &str) -> &str {
+/// Returns the quantity of a column: its name without a method such as `full.`.
+fn quantity(column: &str) -> &str {
     match column.split_once('.') {
-        Some((method, own)) if ["full", "reduced"].iter().any(|name| method.starts_with(name)) => own,
+        Some((method, quantity)) if ["full", "reduced"].iter().any(|name| method.starts_with(name)) => quantity,
         _ => column,
     }
 }
 
 /// Returns the finite values of a quantity by all methods.
 fn values(table: &Table, name: &str) -> Vec<f64> {
-    let columns = table.columns.iter().enumerate().filter(|(_, column)| own(column) == name);
+    let columns = table.columns.iter().enumerate().filter(|(_, column)| quantity(column) == name);
     let of = |(k, _): (usize, &String)| table.rows.iter().filter_map(move |row| row.get(k).copied());
     columns.flat_map(of).filter(|value| value.is_finite()).collect()
 }
 
-/// Returns h/H \[m\] if it is the same in all rows.
+/// Returns the film scale h/H \[m\]; `None` if it differs between rows.
 fn film_scale(table: &Table) -> Option<f64> {
     let (films_m, films) = (values(table, names::H_C_M), values(table, names::H_C));
-    let scales = || films_m.iter().zip(&films).map(|(h, own)| h / own);
+    let scales = || films_m.iter().zip(&films).map(|(h, dimensionless)| h / dimensionless);
     let first = scales().next().filter(|scale| scale.is_finite() && films_m.len() == films.len())?;
     scales().all(|scale| (scale / first - 1.0).abs() < SAME_SCALE).then_some(first)
 }
@@ -82,7 +87,7 @@ mod tests {
         {
             assert_eq!(points(other, &swept, &measured), [[0.0; 2]; 0], "{other:?}");
         }
-        // With a load that varies, H has no common scale.
+        // If the load varies, h/H varies too, and measured film thicknesses cannot be converted to H.
         let loaded = table(&columns, &[&[1.0, 0.0, 0.1, 50e-9, 0.0], &[2.0, 0.0, 0.2, 120e-9, 0.0]]);
         assert_eq!(points(["si.speed", "H_c"], &loaded, &measured), [[0.0; 2]; 0]);
         assert_eq!(points(["si.speed", "h_c_m"], &loaded, &measured).len(), 2);

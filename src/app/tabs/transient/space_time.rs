@@ -1,5 +1,5 @@
-//! Map of film thickness or pressure of a line contact over space and time: X is horizontal, T vertical. Dragging
-//! moves the displayed time to the pointer.
+//! Map of film thickness or pressure of a transient contact over space and time: X, at Y = 0, is horizontal and T is
+//! vertical. A click or drag moves the displayed time to the pointer.
 
 use super::profiles::dry;
 use super::runs::TransientRuns;
@@ -19,13 +19,13 @@ use egui::{Color32, ColorImage, Ui, Vec2};
 use egui_plot::{HLine, HoverPosition, Line, LineStyle, PlotPoint, PlotPoints};
 use std::sync::Arc;
 
-/// Displayed X range.
+/// Displayed range of X, in Hertzian half-widths of the reference contact.
 const X_RANGE: (f64, f64) = (-2.2, 1.6);
 /// Number of pixels along X.
 const COLUMNS: usize = 380;
 /// Maximum number of pixels along T.
 const ROWS: usize = 480;
-/// Width below which the colour scale is omitted.
+/// Width below which the colour scale is omitted \[points\].
 const LEAST_WIDTH: f32 = 320.0;
 
 /// Displayed field.
@@ -41,6 +41,7 @@ enum Field {
 impl Field {
     const ALL: [Self; 2] = [Self::Film, Self::Pressure];
 
+    /// Returns the name of the plot.
     fn name(self) -> &'static str {
         match self {
             Self::Film => "Film over space and time",
@@ -48,6 +49,7 @@ impl Field {
         }
     }
 
+    /// Returns label and hint of the button.
     fn button(self) -> (&'static str, &'static str) {
         match self {
             Self::Film => ("Film over time", "H over X and T, bright where the film is thin"),
@@ -55,6 +57,7 @@ impl Field {
         }
     }
 
+    /// Returns the symbol, marked by braces.
     fn symbol(self) -> &'static str {
         match self {
             Self::Film => "{H}",
@@ -62,6 +65,7 @@ impl Field {
         }
     }
 
+    /// Returns a dimensionless value of the field as text with its unit.
     fn si(self, setup: &Setup, value: f64, system: UnitSystem) -> String {
         match self {
             Self::Film => color_bar::short(QuantityKind::FilmThickness, value * setup.point.film_scale_m(), system),
@@ -70,10 +74,11 @@ impl Field {
     }
 }
 
-/// Data that an image was made of.
+/// Data from which an image was computed. If they change, the image is out of date.
 #[derive(Clone)]
 struct Made {
     setup: Arc<Setup>,
+    /// Method and frame of the run, whether it was replayed, and the number of its stored states.
     run: (MarchedBy, Frame, bool, usize),
     field: Field,
 }
@@ -84,21 +89,24 @@ impl PartialEq for Made {
     }
 }
 
-/// State of the map: its settings, and the image kept between frames.
+/// State of the map: the displayed field, and the image stored between two frames of the window.
 #[derive(Default)]
 pub struct SpaceTime {
     field: Field,
     samples: Samples,
     texture: Option<Texture>,
+    /// Data of the image in `texture`.
     made: Option<Made>,
 }
 
 /// Field at equidistant X for each stored time.
 #[derive(Default)]
 struct Samples {
+    /// Stored times T, ascending.
     times: Vec<f64>,
-    /// Values row by row, in the order of time.
+    /// Values, one row of [`COLUMNS`] per time.
     values: Vec<f32>,
+    /// Ends of the colour scale.
     range: (f64, f64),
 }
 
@@ -124,7 +132,7 @@ impl Samples {
         Self { times: states.iter().map(|state| state.time).collect(), values, range }
     }
 
-    /// Returns the indices of the stored times around T, and the weight of the later one.
+    /// Returns the indices of the stored times around T, and the weight of the later one, 0…1.
     fn around(&self, time: f64) -> Option<(usize, usize, f32)> {
         let last = self.times.len().checked_sub(1)?;
         let later = self.times.partition_point(|t| *t < time).min(last);
@@ -134,23 +142,25 @@ impl Samples {
         Some((earlier, later, share as f32))
     }
 
+    /// Returns the value of a column, interpolated between two stored times.
     fn at(&self, column: usize, (earlier, later, share): (usize, usize, f32)) -> f32 {
         let value = |row: usize| self.values.get(row * COLUMNS + column).copied().unwrap_or(0.0);
         value(earlier) + share * (value(later) - value(earlier))
     }
 
-    /// Returns the value at a place of the map.
+    /// Returns the value at (X, T); `None` outside the map.
     fn value(&self, x: f64, time: f64) -> Option<f64> {
         let column = (x - X_RANGE.0) / (X_RANGE.1 - X_RANGE.0) * COLUMNS as f64;
         let inside = (0.0..COLUMNS as f64).contains(&column) && (0.0..=self.end()).contains(&time);
         inside.then(|| Some(f64::from(self.at(column as usize, self.around(time)?)))).flatten()
     }
 
+    /// Returns the last stored time.
     fn end(&self) -> f64 {
         self.times.last().copied().unwrap_or(0.0)
     }
 
-    /// Returns the image, with the last time at its top.
+    /// Returns the image, with the last time at its top. `table` lists the colours in the order of ascending values.
     fn image(&self, table: &[Color32]) -> ColorImage {
         let last = table.len().saturating_sub(1);
         let (low, factor) = (self.range.0 as f32, last as f32 / (self.range.1 - self.range.0) as f32);
@@ -168,7 +178,7 @@ impl Samples {
     }
 }
 
-/// Appends the values at the pixels of a row, linearly interpolated between values at rising X.
+/// Interpolates (X, value) pairs of ascending X linearly to the pixels of one row. Appends the results to `values`.
 fn resample(nodes: impl Iterator<Item = (f64, f64)>, values: &mut Vec<f32>) {
     let wanted = values.len() + COLUMNS;
     let pixel = (X_RANGE.1 - X_RANGE.0) / COLUMNS as f64;
@@ -191,7 +201,7 @@ fn shown(view: &TransientRuns) -> Option<&Run> {
     view.runs.iter().find(|run| run.reached() >= reached && run.trajectory.states.len() > 1)
 }
 
-/// Returns the export of the map.
+/// Returns the export of the map as a CSV table.
 pub fn offer<'a>(context: &Context<'a>) -> Offer<'a> {
     let view = context.transient;
     let tip = "T, X, P and H of all displayed nodes, at every stored time";
@@ -199,21 +209,21 @@ pub fn offer<'a>(context: &Context<'a>) -> Offer<'a> {
 }
 
 impl SpaceTime {
-    /// Draws the map with this height. Returns the time under a press or a drag.
+    /// Draws the map, `height` points high. On a click or drag, returns T at the pointer.
     pub fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, height: f32) -> Option<f64> {
         let view = context.transient;
-        let there = view.setup.as_ref().zip(shown(view));
+        let displayed = view.setup.as_ref().zip(shown(view));
         ui.horizontal_wrapped(|ui| {
             for field in Field::ALL {
                 let (name, tip) = field.button();
                 ui.selectable_value(&mut self.field, field, name).on_hover_text(tip);
             }
-            if let Some((_, run)) = there {
+            if let Some((_, run)) = displayed {
                 ui.weak(run.name());
             }
         });
-        let (setup, run) = there?;
-        self.follow(ui, setup, run);
+        let (setup, run) = displayed?;
+        self.update_image(ui, setup, run);
         let height = (height - 26.0).max(80.0);
         let whole = ui.horizontal_top(|ui| {
             let scale = ui.available_width() >= LEAST_WIDTH;
@@ -241,7 +251,7 @@ impl SpaceTime {
     }
 
     /// Updates the image if it is out of date.
-    fn follow(&mut self, ui: &Ui, setup: &Arc<Setup>, run: &Run) {
+    fn update_image(&mut self, ui: &Ui, setup: &Arc<Setup>, run: &Run) {
         let states = run.trajectory.states.len();
         let of = (run.by, run.frame(), run.replayed, states);
         let made = Made { setup: Arc::clone(setup), run: of, field: self.field };
@@ -253,6 +263,8 @@ impl SpaceTime {
         }
     }
 
+    /// Draws the image, the edges of the dry contact, the paths of surface features and the displayed time. Returns T
+    /// at the pointer on a click or drag.
     fn plot(&self, ui: &mut Ui, view: &TransientRuns, (setup, run): (&Setup, &Run), height: f32) -> Option<f64> {
         let texture = self.texture.as_ref()?.shown(ui.ctx());
         let (end, duration) = (self.samples.end(), setup.study.duration);

@@ -1,4 +1,4 @@
-//! Both bodies together: reduced radii and modulus, entrainment and sliding, film ratio.
+//! Quantities of both bodies together: reduced radii and modulus, entrainment and sliding, film ratio.
 //!
 //! SRR = (u₂ − u₁)/u_m (3.25): body 1 moves with u_m (1 − SRR/2), body 2 with u_m (1 + SRR/2).
 
@@ -14,12 +14,13 @@ pub enum BodyError {
     /// A radius is zero or not a number.
     #[error("a radius is {0} m; it must be a finite number other than 0, negative for a concave surface")]
     Radius(f64),
-    /// The surfaces do not touch in one point or line.
+    /// The sum of curvatures is not positive, so that the surfaces do not touch in one point or line.
     #[error(
         "these radii touch in no one spot: a concave surface must be flatter than the convex one in it, and two planes are none"
     )]
     Conforming,
-    /// The surfaces do not separate across the rolling direction. Contains their radii \[m\], infinite for a plane.
+    /// The sum of curvatures across the rolling direction is not positive. Contains the radii \[m\], infinite for a
+    /// plane.
     #[error(
         "across the rolling direction the radii of {} and {} leave no positive sum of curvatures: {}",
         Across(*.0), Across(*.1), accepted_across(*.0, *.1)
@@ -36,7 +37,7 @@ pub enum BodyError {
     Roughness(f64, f64),
 }
 
-/// Radius across the rolling direction as part of a message.
+/// Radius across the rolling direction \[m\], displayed as part of a message.
 struct Across(f64);
 
 impl fmt::Display for Across {
@@ -45,7 +46,7 @@ impl fmt::Display for Across {
     }
 }
 
-/// Returns the accepted radii for two surfaces that do not separate across the rolling direction.
+/// Returns which radii would be accepted instead of these two \[m\], for [`BodyError::ConformingAcross`].
 fn accepted_across(first: f64, second: f64) -> String {
     let convex = first.max(second);
     if convex.is_finite() && convex > 0.0 {
@@ -60,7 +61,7 @@ fn accepted_across(first: f64, second: f64) -> String {
 #[serde(transparent)]
 pub struct Bodies(pub [Body; 2]);
 
-/// Returns the sum of curvatures \[1/m\] of two surfaces with the given radii \[m\].
+/// Returns the sum of curvatures \[1/m\] of two surfaces with the given radii \[m\], `None` for a plane.
 fn curvatures(radii_m: [Option<f64>; 2]) -> Result<f64, BodyError> {
     let curvature = |radius: f64| {
         if radius.is_finite() && radius != 0.0 { Ok(1.0 / radius) } else { Err(BodyError::Radius(radius)) }
@@ -69,10 +70,11 @@ fn curvatures(radii_m: [Option<f64>; 2]) -> Result<f64, BodyError> {
     Ok(first? + second?)
 }
 
-/// Returns the reduced radius \[m\] of two surfaces with these radii \[m\], `None` for a plane: 1/R = 1/R₁ + 1/R₂ (2.3).
+/// Returns the reduced radius R \[m\] of two surfaces, 1/R = 1/R₁ + 1/R₂ (2.3). `radii_m` are R₁ and R₂ \[m\], `None`
+/// for a plane.
 ///
 /// # Errors
-/// If a radius is zero, or a concave surface is not flatter than the convex one.
+/// If a radius is zero, a concave surface is not flatter than the convex one, or both surfaces are planes.
 pub fn reduced_radius_m(radii_m: [Option<f64>; 2]) -> Result<f64, BodyError> {
     let radius = 1.0 / curvatures(radii_m)?;
     if radius > 0.0 && radius.is_finite() { Ok(radius) } else { Err(BodyError::Conforming) }
@@ -80,7 +82,7 @@ pub fn reduced_radius_m(radii_m: [Option<f64>; 2]) -> Result<f64, BodyError> {
 
 impl Bodies {
     /// Returns two steel bodies that form a contact: a roller or ball on a plane with the given reduced radius \[m\],
-    /// mean speed \[m/s\] and slide-to-roll ratio. Both are as smooth as good bearings.
+    /// mean speed \[m/s\] and slide-to-roll ratio. Both have a roughness of 50 nm, as in good bearings.
     pub fn on_plane(radius_m: f64, mean_m_per_s: f64, slide_to_roll: f64) -> Self {
         let [first, second] = surface_speeds(mean_m_per_s, slide_to_roll);
         let Material { modulus_pa, poisson, heat, .. } = Material::STEEL;
@@ -100,15 +102,15 @@ impl Bodies {
     /// Returns the reduced radius R along the rolling direction \[m\], 1/R = 1/R₁ + 1/R₂ (2.3).
     ///
     /// # Errors
-    /// If a radius is zero, or a concave surface is not flatter than the convex one.
+    /// As the function [`reduced_radius_m`].
     pub fn reduced_radius_m(&self) -> Result<f64, BodyError> {
         reduced_radius_m(self.0.map(|body| body.radius_m))
     }
 
-    /// Returns the reduced radius R_y across the rolling direction \[m\], by the same rule.
+    /// Returns the reduced radius R_y across the rolling direction \[m\], also by (2.3).
     ///
     /// # Errors
-    /// If a radius is zero, or a groove is not flatter than the body in it.
+    /// If a radius is zero, a groove is not flatter than the body in it, or both surfaces are flat across.
     pub fn reduced_transverse_radius_m(&self) -> Result<f64, BodyError> {
         let radii = self.0.map(|body| body.transverse_radius_m());
         let radius = 1.0 / curvatures(radii)?;
@@ -144,9 +146,8 @@ impl Bodies {
         if inside { Ok((mean, (second - first) / mean)) } else { Err(BodyError::Entrainment(first, second)) }
     }
 
-    /// Returns the contact with R, R_y, E′, u_m and SRR of these bodies, and all other quantities of another one. A
-    /// point contact is elliptical if the reduced radii differ. An elliptical contact remains one if they become
-    /// equal.
+    /// Returns `point` with R, R_y, E′, u_m and SRR of these bodies. Its other quantities are unchanged. A point
+    /// contact becomes elliptical if R and R_y differ. An elliptical contact remains elliptical also if they are equal.
     ///
     /// # Errors
     /// If the bodies do not form a contact.
@@ -162,15 +163,16 @@ impl Bodies {
         Ok(OperatingPoint { radius_m, radius_y_m, modulus_pa, speed_m_per_s, sliding, ..point })
     }
 
-    /// Returns the film ratio λ = h_min/√(Rq₁² + Rq₂²) of the minimum film thickness h_min \[m\].
+    /// Returns the film ratio λ = h_min/√(Rq₁² + Rq₂²) for the minimum film thickness h_min \[m\]. Rq are the
+    /// roughnesses.
     ///
     /// # Errors
     /// If a roughness is negative, or both are zero.
-    pub fn film_ratio(&self, smallest_film_m: f64) -> Result<f64, BodyError> {
+    pub fn film_ratio(&self, h_min_m: f64) -> Result<f64, BodyError> {
         let [first, second] = self.0.map(|body| body.roughness_m);
         let composite = first.hypot(second);
         if first >= 0.0 && second >= 0.0 && composite > 0.0 && composite.is_finite() {
-            Ok(smallest_film_m / composite)
+            Ok(h_min_m / composite)
         } else {
             Err(BodyError::Roughness(first, second))
         }
@@ -182,7 +184,7 @@ pub fn surface_speeds(mean_m_per_s: f64, slide_to_roll: f64) -> [f64; 2] {
     [mean_m_per_s * (1.0 - 0.5 * slide_to_roll), mean_m_per_s * (1.0 + 0.5 * slide_to_roll)]
 }
 
-/// Returns the lubrication regime of a film ratio, by the limits of handbooks.
+/// Returns the lubrication regime for a film ratio λ. The limits 3 and 1 are those of handbooks.
 pub fn film_regime(lambda: f64) -> &'static str {
     match lambda {
         l if l >= 3.0 => "full film",

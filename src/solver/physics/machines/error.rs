@@ -1,4 +1,4 @@
-//! Refusals of machine elements.
+//! Reasons why a bearing, a gear pair or a cam is refused, and the check of a value against its range.
 
 use crate::solver::limits::digits;
 
@@ -55,10 +55,10 @@ pub enum MachineError {
     Unloaded {
         /// Orbit angle \[°\].
         angle: f64,
-        /// Half of the loaded zone \[°\].
+        /// Half of the angle of the loaded zone \[°\].
         zone: f64,
     },
-    /// The elements do not move around.
+    /// The cage does not turn.
     #[error("the cage stands still at these speeds, so that there is no path over the orbit angle")]
     CageStands,
     /// The teeth are undercut.
@@ -98,14 +98,14 @@ pub enum MachineError {
         "the position is {position:.3} mm from the pitch point, but the path of contact is {from:.3} mm to {to:.3} mm"
     )]
     OffThePath {
-        /// Position \[mm\].
+        /// Position along the path, from the pitch point \[mm\].
         position: f64,
-        /// Begin of the path of contact \[mm\].
+        /// Start of the path of contact, from the pitch point \[mm\].
         from: f64,
-        /// End of the path of contact \[mm\].
+        /// End of the path of contact, from the pitch point \[mm\].
         to: f64,
     },
-    /// The cam profile does not exist or is hollow.
+    /// The radius of curvature of the cam is not accepted.
     #[error("at a cam angle of {angle:.1}° the cam has a radius of curvature of {radius:.3} mm; {remedy}")]
     Profile {
         /// Cam angle \[°\].
@@ -140,7 +140,7 @@ pub enum MachineError {
     LiftPoints(usize),
 }
 
-/// Refuses a value outside a range. `scale` converts the value into the unit of the message.
+/// Refuses a value outside a range. `value / scale`, `min` and `max` are in the unit of the message, `unit`.
 pub(super) fn check(
     name: &'static str,
     value: f64,

@@ -1,4 +1,5 @@
-//! Reconstruction of fields from a reduced solution: the only large-scale online work, done on request.
+//! Reconstructs pressure, film thickness and temperatures at all nodes from a reduced solution, and scalars from them.
+//! This is the only online work on the whole grid. It is done on request.
 
 use super::{Online, ReducedError, operators_of};
 use crate::host::pool;
@@ -59,20 +60,20 @@ impl Online {
         })
     }
 
-    /// Returns the asperity pressure as a node array; empty for smooth surfaces.
+    /// Returns the asperity pressure at all nodes; empty for smooth surfaces.
     fn asperity_pressure(&self, window: usize, fields: &Fields) -> Vec<f64> {
         let Fields { problem, grid, film, .. } = fields;
         let Some(rough) = &problem.rough else { return Vec::new() };
         let operators = self.windows.get(window).and_then(OnceCell::get);
         let known = operators.and_then(Operators::asperity_table).filter(|table| rough.fits(table));
         let table = known.map_or_else(|| Cow::Owned(rough.table()), Cow::Borrowed);
-        let carried = |(weight, film): (&f64, &f64)| {
+        let at_node = |(weight, film): (&f64, &f64)| {
             if *weight > 0.0 { rough.asperity_pressure(&table, *film).0 } else { 0.0 }
         };
-        grid.weights().iter().zip(film).map(carried).collect()
+        grid.weights().iter().zip(film).map(at_node).collect()
     }
 
-    /// Reconstructs the scalars only.
+    /// Reconstructs the fields of a reduced solution and returns only the scalars.
     ///
     /// # Errors
     /// [`ReducedError`] if the solution's point is refused or if it belongs to another model.
@@ -80,7 +81,7 @@ impl Online {
         Ok(self.fields(solution)?.scalars(solution.h_0))
     }
 
-    /// Returns the minimum film thickness over all nodes.
+    /// Returns the minimum film thickness H over all nodes.
     pub(super) fn lowest_film(&self, solution: &ReducedSolution) -> Result<f64, ReducedError> {
         let lower = |a: f64, b: &f64| if b.is_nan() { *b } else { a.min(*b) };
         Ok(self.fields(solution)?.film.iter().fold(f64::INFINITY, lower))
@@ -106,6 +107,8 @@ impl Online {
         Ok(blend)
     }
 
+    /// Reconstructs the fields of a solution in its own local model, with the rigid-body separation `h_0` of this
+    /// model.
     fn fields_of_window(&self, solution: &ReducedSolution, h_0: f64) -> Result<Fields, ReducedError> {
         let problem = Problem::new(&solution.point, solution.lubricant)?;
         let (Some(window), Some(cell)) = (self.model.windows.get(solution.window), self.windows.get(solution.window))
@@ -126,13 +129,14 @@ impl Online {
             }
             _ => nodes,
         };
-        // On grids of point contacts no film is so thin that the eighth digit of a pressure matters.
+        // Single precision is enough for point contacts: on their grids no film is so thin that the eighth digit of a
+        // pressure matters.
         let single = window.grid.kind().is_point();
         let mut pressure = vec![0.0; nodes];
         window.pressure.field(&solution.coefficients, single, &mut pressure[..ahead]);
         let ellipse = problem.point.ellipse();
-        // The total pressure of rough surfaces continues behind the boundary.
-        let ruptures = !solution.fronts.is_empty() && !window.is_rough();
+        // The total pressure of rough surfaces does not end at the cavitation boundary, so it is not cut off.
+        let cuts_off = !solution.fronts.is_empty() && !window.is_rough();
         let mut film = match &window.shapes {
             Some(shapes) => {
                 let mut film = vec![0.0; pressure.len()];
@@ -140,15 +144,15 @@ impl Online {
                 shapes.add_deformation(modes, &ellipse, &solution.coefficients, &mut film);
                 film
             }
-            // With pressures cut off, K P differs from that of the modes.
-            None if ruptures && self.options.deformation_modes.is_none() => Vec::new(),
+            // The deformation K P is computed below, from the pressures after the cut.
+            None if cuts_off && self.options.deformation_modes.is_none() => Vec::new(),
             None => {
                 let mut film = vec![0.0; nodes];
                 dense::times(operators.deformation(window), &solution.coefficients, &mut film);
                 film
             }
         };
-        if ruptures {
+        if cuts_off {
             let whole = if film.is_empty() { Vec::new() } else { pressure.clone() };
             cut_off(&window.grid, &solution.fronts, &mut pressure);
             if film.is_empty() {
@@ -157,7 +161,7 @@ impl Online {
                 let missing: Vec<f64> = whole.iter().zip(&pressure).map(|(whole, kept)| whole - kept).collect();
                 film.iter_mut().zip(window.grid.deformation(&missing)).for_each(|(film, bent)| *film -= bent);
             }
-            // Remainders of the modes in front of the boundary.
+            // In front of the boundary, negative pressures are remainders of the modes.
             pressure.iter_mut().for_each(|p| *p = p.max(0.0));
         }
         let (offset, curvature) = (h_0 - 0.5 * scale.ln(), ellipse.gap_curvature());
@@ -168,7 +172,7 @@ impl Online {
                 *h = offset + 0.5 * (x * x + across) + scale * *h;
             }
         }
-        let fronts = if ruptures { solution.fronts.clone() } else { Vec::new() };
+        let fronts = if cuts_off { solution.fronts.clone() } else { Vec::new() };
         Ok(Fields { problem, grid: window.grid.clone(), scale, pressure, film, fronts })
     }
 }
@@ -176,17 +180,20 @@ impl Online {
 /// Tolerance of the march that computes the heat balance.
 const MARCHED: f64 = 1e-7;
 
-/// Number of nodes whose stress is computed by one task.
+/// Number of nodes whose stress is computed by one parallel task.
 const SHARE: usize = 256;
 
 /// Reconstructed node arrays.
 struct Fields {
     problem: Problem,
     grid: ContactGrid,
+    /// Scale of the grid for this contact: X = stretched(ξ, scale).
     scale: f64,
+    /// P.
     pressure: Vec<f64>,
+    /// H.
     film: Vec<f64>,
-    /// First cavitated column of each line along X; empty with a penalty.
+    /// First cavitated column of each line along X; empty with a penalty or for rough surfaces.
     fronts: Vec<usize>,
 }
 
@@ -196,18 +203,19 @@ impl Fields {
         self.grid.abscissae().0.iter().map(|xi| stretched(*xi, self.scale)).collect()
     }
 
-    /// Returns the multiplier λ behind the cavitation boundary as a node array; empty without a boundary.
+    /// Returns the multiplier λ of the complementarity at all nodes, zero in front of the cavitation boundary; empty
+    /// without a boundary.
     fn multiplier(&self) -> Vec<f64> {
         let Self { problem, grid, scale, pressure, film, fronts } = self;
         if fronts.is_empty() {
             return Vec::new();
         }
         let mut multiplier = vec![0.0; pressure.len()];
-        let ruptured = |unknown: &usize| {
+        let cavitated = |unknown: &usize| {
             let (line, column) = grid.line_and_column(grid.node(*unknown));
             column >= fronts[line]
         };
-        let behind: Vec<usize> = (0..grid.unknowns()).filter(ruptured).collect();
+        let behind: Vec<usize> = (0..grid.unknowns()).filter(cavitated).collect();
         let rows: Vec<_> = behind.iter().map(|&unknown| grid.row(unknown)).collect();
         let mut nodes = Nodes::new(pressure.len(), problem.shear.is_some());
         let (laws, state) = (problem.laws(), (&pressure[..], &film[..]));
@@ -218,11 +226,11 @@ impl Fields {
         let newtonian = Laws { shear: None, ..laws };
         nodes.evaluate_part(&newtonian, reached..pressure.len(), state, gradient, treatment);
         if let Some(law) = laws.shear {
-            // Shear-thinning has no effect without pressure nearby, which is the case for most rows behind the
-            // boundary.
+            // Shear-thinning has no effect without pressure nearby. Most rows behind the boundary have no pressure
+            // nearby and are omitted.
             let near = |node: &usize| pressure[*node] != 0.0 || gradient(*node) != [0.0; 2];
-            let asked = rows.iter().filter(|(stencil, _)| stencil.iter().any(near));
-            let mut wanted: Vec<usize> = asked.flat_map(|(stencil, _)| *stencil).collect();
+            let affected = rows.iter().filter(|(stencil, _)| stencil.iter().any(near));
+            let mut wanted: Vec<usize> = affected.flat_map(|(stencil, _)| *stencil).collect();
             wanted.sort_unstable();
             wanted.dedup();
             nodes.thin((&laws, law), wanted, state, gradient, treatment);
@@ -233,12 +241,14 @@ impl Fields {
         multiplier
     }
 
-    /// Returns the temperature fields from the profiles at the stations; `None` for an isothermal contact.
+    /// Returns the temperature fields from the profiles θ at the stations. `None` for an isothermal contact, or if the
+    /// number of profiles is not that of the stations.
     fn temperatures(&self, theta: &[Profile]) -> Option<Temperatures> {
         let Self { problem, grid, scale, pressure, film, .. } = self;
         let (heat, laws) = (problem.heat.as_ref()?, problem.warm_laws()?);
         let ((_, y), across, first) = (grid.abscissae(), grid.nodes().1, grid.first_column());
         let kappa = problem.point.ellipse().kappa;
+        // Converts Y to units of a.
         let in_a = |y: &[f64]| y.iter().map(|y| kappa * y).collect::<Vec<f64>>();
         let y = &in_a(y)[..];
         let x = self.x();
@@ -246,7 +256,7 @@ impl Fields {
         let state = |node: usize| {
             let mut slopes = gradient.at_node(pressure, node);
             if node / across == first {
-                // At the inlet the pressure of the outside node is not defined.
+                // The pressure of the node outside the inlet is not defined.
                 slopes[0] = one_sided(&x[first..], [0, 1, 2].map(|k| pressure[node + k * across]));
             }
             NodeState { pressure: pressure[node], gradient: slopes, film: film[node] }
@@ -261,7 +271,7 @@ impl Fields {
             line.states.iter_mut().zip(nodes).for_each(|(known, node)| *known = state(node));
         }
         lines.stations_mut().zip(theta).for_each(|(station, theta)| station.theta = *theta);
-        // Flow and heat balance at the given temperatures.
+        // The share 0 leaves the temperatures as they are and computes flow and heat balance.
         lines.march(&problem.course(&[])?, (0.0, MARCHED), true);
         let places = x.iter().flat_map(|x| y.iter().map(|y| (*x, *y)));
         let profiles = Spread::new(&at, &lines.y, places).profiles(&lines).collect::<Vec<Profile>>();
@@ -277,6 +287,7 @@ impl Fields {
         Some(Temperatures::marched(&lines, &profiles[skipped..], &arrays, (problem, heat)))
     }
 
+    /// Returns the scalars of the fields with the rigid-body separation `h_0`.
     fn scalars(&self, h_0: f64) -> Scalars {
         let Self { problem, grid, scale, pressure, film, .. } = self;
         match grid {

@@ -1,4 +1,4 @@
-//! Settings of the online phase, and its errors.
+//! Settings of the online phase of a reduced model, and errors of its solves.
 
 use crate::solver::full::SolveError;
 use crate::solver::parameters::CIRCLES;
@@ -30,7 +30,7 @@ pub enum ReducedError {
         /// True if the surfaces of the contact are rough.
         rough: bool,
     },
-    /// The model is of the other kind of contact.
+    /// The model is of another kind of contact, line or point.
     #[error("the reduced model is of {} contacts, but the operating point is that of a {} contact", model.name(), given.name())]
     OtherContact {
         /// Kind of the model.
@@ -59,18 +59,18 @@ pub enum ReducedError {
     NotConverged {
         /// Number of steps.
         iterations: usize,
-        /// Last relative step.
+        /// Relative size of the last step.
         step: f64,
     },
     /// The solve was cancelled.
     #[error("the reduced solve was stopped")]
     Cancelled,
-    /// The contact is elliptical with a radius ratio outside the model's.
+    /// The radius ratio of the contact is outside the interval of the model.
     #[error("the reduced model supports {}; use the full solver for a ratio of radii of {given}", known_shapes(*known))]
     Ellipse {
         /// R_y/R of the contact.
         given: f64,
-        /// R_y/R of the model.
+        /// Interval of R_y/R of the model.
         known: (f64, f64),
     },
     /// Outside the trained range the iteration ended in a state that is not a solution of a contact.
@@ -78,6 +78,7 @@ pub enum ReducedError {
     Implausible(String),
 }
 
+/// Returns the supported contacts as text, for an interval of R_y/R.
 fn known_shapes(known: (f64, f64)) -> String {
     if known == CIRCLES {
         return "circular contacts only".to_owned();
@@ -86,8 +87,8 @@ fn known_shapes(known: (f64, f64)) -> String {
 }
 
 impl ReducedError {
-    /// Returns the number of Newton steps of an iteration that gave no solution; `None` if the request itself was
-    /// refused.
+    /// Returns the number of Newton steps if the error belongs to this contact only: the model has no solution of it.
+    /// Zero if the contact was not tried or its solution is not plausible. `None` for all other errors.
     pub fn without_solution(&self) -> Option<usize> {
         match self {
             Self::NotConverged { iterations, .. } => Some(*iterations),
@@ -97,31 +98,32 @@ impl ReducedError {
     }
 }
 
-/// Initial guess of an online iteration.
+/// Selection of initial guesses for an online iteration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Starts {
     /// All initial guesses of [`Online::solve`](super::Online::solve), one after the other.
     #[default]
     Explorer,
-    /// The nearest snapshot by (3.20) as it is, and no other: the dissertation's choice.
+    /// Only the nearest snapshot by (3.20), unchanged, as in the dissertation.
     Nearest,
 }
 
-/// Settings of the online phase. They do not require new training.
+/// Settings of the online phase. They can be changed without another training.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReducedOptions {
     /// Number of pressure modes; `None` for all.
     pub pressure_modes: Option<usize>,
-    /// Number of deformation modes of the dissertation's V_δ V_δᵀ K V_p; `None` for the exact K V_p.
+    /// Number of deformation modes V_δ, with which the deformation of the pressure modes V_p is V_δ V_δᵀ K V_p as in
+    /// the dissertation; `None` for the exact K V_p.
     pub deformation_modes: Option<usize>,
-    /// Stopping tolerance for ‖Δp̃‖/‖p̃‖, with the pressure coefficients p̃; thin films use a share of it. Newton's
-    /// method converges quadratically: the remaining error is the square of it.
+    /// Stopping tolerance for ‖Δp̃‖/‖p̃‖, with the pressure coefficients p̃. It is reduced for thin films. Newton's
+    /// method converges quadratically, so that the remaining relative error is about its square.
     pub tolerance: f64,
     /// Maximum number of Newton steps.
     pub max_newton: usize,
     /// Penalty factor γ̄ of (2.36); `None` for the local model's own.
     pub penalty: Option<f64>,
-    /// Initial guess.
+    /// Selection of initial guesses.
     pub starts: Starts,
 }
 

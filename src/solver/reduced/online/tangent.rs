@@ -1,4 +1,5 @@
-//! Solutions next to a known one, to first order, for derivatives.
+//! Reduced solutions of contacts close to a solved one, for derivatives by differences. All have its cavitation
+//! boundary. They are converged solutions, or follow to first order from the linearised sampled equations.
 
 use super::attempt::{Found, Watch, attempt, case_of};
 use super::{Online, ReducedError, ReducedOptions};
@@ -8,17 +9,17 @@ use crate::solver::reduced::operators::{Start, Stop};
 use crate::solver::reduced::start::Guess;
 use std::sync::Arc;
 
-/// Tolerance of solutions with the cavitation boundary of another one.
+/// Stopping tolerance of [`Online::solve_beside`].
 const TOLERANCE: f64 = 1e-9;
 
-/// Returns the number of modes of a solution. Omitted modes have the coefficient zero.
+/// Returns the number of modes in use. Modes that an iteration omitted have the coefficient zero.
 fn modes_of(solved: &ReducedSolution) -> usize {
     solved.coefficients.iter().rposition(|value| *value != 0.0).map_or(1, |last| last + 1)
 }
 
 impl Online {
-    /// Returns the converged solution of a contact next to that of a solution, with the cavitation boundary and the
-    /// modes of this solution. `None` if the iteration fails, or if other local models are blended in.
+    /// Solves a contact close to that of `solved`, with the cavitation boundary and the modes of `solved`. `None` if
+    /// the iteration fails, or if other local models are blended into `solved`.
     ///
     /// # Errors
     /// [`ReducedError`] if the contact is refused or if the solution belongs to another model.
@@ -48,19 +49,19 @@ impl Online {
         Ok(found.map(|found| self.solution_beside(problem, solved, found)))
     }
 
-    /// Returns a solution of the local model of another one.
-    fn solution_beside(&self, problem: &Problem, beside: &ReducedSolution, found: Found) -> ReducedSolution {
-        let by_neighbour = beside.by_neighbour;
-        let own = self.solution_of(problem, beside.window, found);
+    /// Returns an iteration in the local model of `solved` as the solution of a contact close to that of `solved`.
+    fn solution_beside(&self, problem: &Problem, solved: &ReducedSolution, found: Found) -> ReducedSolution {
+        let by_neighbour = solved.by_neighbour;
+        let own = self.solution_of(problem, solved.window, found);
         ReducedSolution { error: own.error.filter(|_| !by_neighbour), by_neighbour, ..own }
     }
 
-    /// Returns the solutions of two contacts, to first order. The contacts lie on both sides of a solution's own one, at
-    /// equal small distances. The difference of the solutions is that of the linearised sampled equations for the
-    /// cavitation boundary of the given solution.
+    /// Returns the solutions of the two contacts `ends` to first order. The contacts lie on both sides of that of
+    /// `solved`, at equal small distances. The solutions follow from the sampled equations, linearised with the
+    /// cavitation boundary of `solved`.
     ///
-    /// `None` for thermal models, for residual minimisation, for two ellipses of different shape, where other local
-    /// models are blended in, or if an iteration fails.
+    /// `None` for thermal models, for residual minimisation, if the contacts have ellipses of different shape, if other
+    /// local models are blended in at the ends than in `solved`, or if an iteration fails.
     ///
     /// # Errors
     /// [`ReducedError`] if a contact is refused or if the solution belongs to another model.
@@ -89,7 +90,7 @@ impl Online {
         Ok(Some([before, after]))
     }
 
-    /// Does the same for one local model.
+    /// Does the same as [`Self::beside`] for the local model of `solved`, whose rigid-body separation is `h_0`.
     fn beside_in_window(
         &mut self,
         solved: &ReducedSolution,

@@ -1,6 +1,6 @@
-//! Time integration of a trajectory-piecewise-linear model. A step weights the linearised systems of the operating points
-//! near its state, adds them up, and solves one small linear system. Its cost does not depend on the number of nodes of
-//! the grid, and it allocates nothing.
+//! Time integration of a trajectory-piecewise-linear model. A step adds up the weighted linearised systems of the
+//! operating points near its state and solves one small linear system. Its cost does not depend on the number of nodes
+//! of the grid, and it allocates nothing.
 
 use super::model::{TpwlError, TpwlModel, check_frame};
 use super::record::{TpwlRecord, TpwlStep};
@@ -23,36 +23,41 @@ pub struct TpwlMarch<'a> {
     load: f64,
     /// Two previous states, the most recent first.
     former: [Past; 2],
-    /// State at the end of the present step.
+    /// State at the end of the current step.
     trial: Past,
-    /// Its extrapolation from the previous states, at which the weights are computed.
+    /// State at which the weights are computed: the previous states, extrapolated to the end of the step.
     start: Vec<f64>,
     search: Search,
     superposition: Superposition,
     system: SmallSystem,
+    /// Entry of the record for the current step.
     step: TpwlStep,
+    /// Data from which the scalars of a state are computed.
     contact: ContactRows,
     /// Scalars of the last state.
     scalars: Scalars,
+    /// All steps so far.
     record: TpwlRecord,
 }
 
 /// Reduced state y and its mass flow g(y), (4.16).
 #[derive(Clone, Debug)]
 struct Past {
+    /// y: pressure coefficients and H₀.
     state: Vec<f64>,
+    /// g(y).
     storage: Vec<f64>,
 }
 
 /// Stopping tolerance of the iteration for the steady start, for ‖Δy‖/‖y‖.
 const REST_TOLERANCE: f64 = 1e-9;
-/// Number of iterations for the steady start after which a change is halved, since the weights may oscillate.
+/// Number of iterations for the steady start after which all changes are halved. The weights could oscillate otherwise.
 const REST_PLAIN: usize = 15;
 /// Maximum number of iterations for the steady start.
 const REST_ITERATIONS: usize = 60;
 /// Largest accepted change in the last iteration for the steady start.
 const REST_ACCEPTED: f64 = 1e-3;
-/// Number of times at which the speed is checked.
+/// Number of equal intervals of the duration at whose ends the speed is checked.
 const SPEED_CHECKS: usize = 2000;
 
 /// Simulates a contact in time with a model.
@@ -114,7 +119,7 @@ impl<'a> TpwlMarch<'a> {
         self.assemble(time);
     }
 
-    /// Computes the superposition for the current weights.
+    /// Computes the superposition for the current weights, and the entry of the record.
     fn assemble(&mut self, time: f64) {
         self.superposition.assemble(self.model, self.load);
         let weights = self.superposition.weights.iter();
@@ -125,7 +130,8 @@ impl<'a> TpwlMarch<'a> {
         };
     }
 
-    /// Solves the superposed system for `trial`.
+    /// Solves the superposed system for `trial`. `now` and `former` are the weights of the difference quotient in time
+    /// for the new state and the previous ones; all are 0 for the steady state.
     fn advance(&mut self, now: f64, former: [f64; 2], input: [f64; INPUTS]) -> Result<(), Termination> {
         let Self { superposition, system, trial, former: [near, far], .. } = self;
         let history = [(former[0], near.storage.as_slice()), (former[1], far.storage.as_slice())];
@@ -134,7 +140,7 @@ impl<'a> TpwlMarch<'a> {
     }
 
     /// Sets the initial guess of the steady state: for each training load in use, the operating point with the nearest
-    /// inputs. Returns true if its inputs are those wanted.
+    /// inputs. Returns true if all these points have exactly the given inputs.
     fn guess(&mut self, input: [f64; INPUTS]) -> bool {
         self.start.fill(0.0);
         self.superposition.weights.clear();
@@ -180,8 +186,8 @@ impl Marching for TpwlMarch<'_> {
 
     fn rest(&mut self, at: &Conditions, observer: &dyn Observer) -> Result<Effort, Termination> {
         let (input, modes) = (input_vector(at.input), self.model.space.modes());
-        // If a training started with the same inputs, the steady state is an operating point. Otherwise the weights
-        // are iterated with the state.
+        // If a training started with the same inputs, the steady state is one of its operating points. Otherwise
+        // weights and state are iterated.
         let met = self.guess(input);
         self.assemble(at.time);
         self.advance(0.0, [0.0; 2], input)?;
