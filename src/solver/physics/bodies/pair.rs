@@ -16,7 +16,7 @@ pub enum BodyError {
     Radius(f64),
     /// The sum of curvatures is not positive, so that the surfaces do not touch in one point or line.
     #[error(
-        "these radii touch in no one spot: a concave surface must be flatter than the convex one in it, and two planes are none"
+        "these surfaces do not touch in one point or line: a concave surface must be flatter than the convex one in it, and one surface must be curved"
     )]
     Conforming,
     /// The sum of curvatures across the rolling direction is not positive. Contains the radii \[m\], infinite for a

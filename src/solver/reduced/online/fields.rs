@@ -81,10 +81,9 @@ impl Online {
         Ok(self.fields(solution)?.scalars(solution.h_0))
     }
 
-    /// Returns the minimum film thickness H over all nodes.
+    /// Returns the minimum film thickness H over all nodes; NaN if one of them is NaN.
     pub(super) fn lowest_film(&self, solution: &ReducedSolution) -> Result<f64, ReducedError> {
-        let lower = |a: f64, b: &f64| if b.is_nan() { *b } else { a.min(*b) };
-        Ok(self.fields(solution)?.film.iter().fold(f64::INFINITY, lower))
+        Ok(lowest(&self.fields(solution)?.film))
     }
 
     /// Reconstructs the fields of a solution, blended with those of its neighbouring local models.
@@ -293,6 +292,26 @@ impl Fields {
         match grid {
             ContactGrid::Line(grid) => scalars_of(&grid.scaled(*scale), problem, pressure, film, h_0),
             ContactGrid::Point(grid) => scalars_of(&**grid, problem, pressure, film, h_0),
+        }
+    }
+}
+
+/// Returns the lowest of the values; NaN if one of them is NaN.
+fn lowest(values: &[f64]) -> f64 {
+    values.iter().fold(f64::INFINITY, |lowest, value| if lowest.is_nan() || *value >= lowest { lowest } else { *value })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::lowest;
+
+    #[test]
+    fn a_film_that_is_not_a_number_is_not_lost() {
+        assert_eq!(lowest(&[3.0, 1.0, 2.0]), 1.0);
+        for place in 0..3 {
+            let mut films = [3.0, 1.0, 2.0];
+            films[place] = f64::NAN;
+            assert!(lowest(&films).is_nan(), "{films:?}");
         }
     }
 }

@@ -40,10 +40,10 @@ pub enum ReducedError {
     },
     /// The cavitation model of a transient model differs from the requested one.
     #[error(
-        "the transient reduced model was trained with cavitation by {}, not by {}; train one with that law, or use the full system",
+        "the transient reduced model was trained with the cavitation model {}, not {}; train one with that cavitation model, or use the full system",
         model.name(), given.name()
     )]
-    OtherRupture {
+    OtherCavitation {
         /// Cavitation model of the model.
         model: Cavitation,
         /// Requested cavitation model.

@@ -235,7 +235,11 @@ impl TrajectoryDomain {
         }
         let (own, given) = (self.reference.lubricant.cavitation, problem.lubricant.cavitation);
         if own != given {
-            return Some(format!("the model was trained with cavitation by {}, not by {}", own.name(), given.name()));
+            return Some(format!(
+                "the model was trained with the cavitation model {}, not {}",
+                own.name(),
+                given.name()
+            ));
         }
         let steps = (duration / self.step).ceil().clamp(1.0, MOST_LOOKED_AT);
         let (length, mut before) = (duration / steps, inputs.at(0.0));

@@ -102,7 +102,7 @@ impl<'a> ReducedMarch<'a> {
         }
         let (own, given) = (model.domain.reference.lubricant.cavitation, transient.lubricant.cavitation);
         if own != given {
-            return Err(ReducedError::OtherRupture { model: own, given });
+            return Err(ReducedError::OtherCavitation { model: own, given });
         }
         Ok(Self { separation: transient.separation.clone(), ..Self::on(model) })
     }
