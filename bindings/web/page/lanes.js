@@ -7,6 +7,9 @@ const PATIENCE = [Infinity, 1500, 300];
 // for this number of milliseconds. The next task starts another one.
 const LARGE = 64 << 20;
 const REST = 2000;
+// Lane of the reduced solves for the picture. Its worker may be larger, because another one must read the models again.
+export const LIVE = 2;
+const LARGE_LIVE = 160 << 20;
 
 export class Lanes {
   constructor(deliver) {
@@ -14,6 +17,8 @@ export class Lanes {
     this.module = null;
     this.workers = new Map();
     this.tasks = new Map();
+    // Addresses of the model files that the page has fetched, which need no network.
+    this.files = {};
   }
 
   post(lane, ticket, kind, task) {
@@ -24,7 +29,7 @@ export class Lanes {
     const bytes = task.slice();
     const worker = this.worker(lane);
     worker.asked = performance.now();
-    worker.postMessage({ ticket, kind, bytes, wishes }, [bytes.buffer]);
+    worker.postMessage({ ticket, kind, bytes, wishes, models: this.files }, [bytes.buffer]);
     return true;
   }
 
@@ -39,7 +44,7 @@ export class Lanes {
           worker.memory = memory;
           this.forget(ticket);
           const rests = () => this.workers.get(lane) === worker && this.running(lane) === undefined;
-          if (memory > LARGE) setTimeout(() => rests() && performance.now() - worker.asked >= REST && this.end(lane), REST);
+          if (memory > (lane === LIVE ? LARGE_LIVE : LARGE)) setTimeout(() => rests() && performance.now() - worker.asked >= REST && this.end(lane), REST);
         }
         if (broken) this.end(lane);
       };

@@ -65,7 +65,7 @@ pub(super) fn encode(model: &ReducedModel) -> Option<Vec<u8>> {
     })
 }
 
-/// Reads a model. Does not solve training contacts.
+/// Reads a model, or its outline if the contents are those of one. Does not solve training contacts.
 ///
 /// # Errors
 /// If its parts are inconsistent, or if the observer cancels.
@@ -198,7 +198,7 @@ fn check_sizes(
 
 /// Reads the basis that all local models share, if there is one. Returns `None` if it is damaged.
 fn shared_basis(contents: &Contents<'_>, grids: &[&ContactGrid]) -> Option<Option<Arc<SharedBasis>>> {
-    if contents.shape(SHARED[0]).is_none() {
+    if contents.shape(SHARED[0]).is_none() || contents.is_outline() {
         return Some(None);
     }
     let grid = grids.first()?;
