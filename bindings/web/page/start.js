@@ -119,6 +119,21 @@ for (const event of ["dragover", "drop"]) {
 
 window.addEventListener("hashchange", () => opened(location.hash));
 
+// Chromium reports a wrong number of device pixels while it emulates a tablet. The explorer would then be drawn larger
+// than it is touched. Without this number, it computes its size from `devicePixelRatio`.
+async function checkPixels(canvas) {
+  const told = globalThis.ResizeObserverEntry?.prototype;
+  if (!told || !("devicePixelContentBoxSize" in told)) return;
+  const width = await new Promise((resolve) => {
+    const observer = new ResizeObserver(([entry]) => {
+      observer.disconnect();
+      resolve(entry.devicePixelContentBoxSize[0].inlineSize);
+    });
+    observer.observe(canvas);
+  });
+  if (Math.abs(width - canvas.clientWidth * devicePixelRatio) > 1.5) delete told.devicePixelContentBoxSize;
+}
+
 async function run() {
   if (typeof WebAssembly !== "object") throw new Error("this browser has no WebAssembly");
   const sizes = { module: MODULE.bytes, line: MODELS.line.bytes };
@@ -137,6 +152,7 @@ async function run() {
   globalThis.ehl.memory = () => memory.buffer.byteLength + lanes.memory();
   await line;
   say("The program starts.");
+  await checkPixels(element("explorer"));
   await start(element("explorer"));
   element("waiting").className = "done";
   element("explorer").focus();
