@@ -178,10 +178,30 @@ pub fn in_time(kind: ContactKind) -> Result<Arc<TrajectoryModel>, ModelFileError
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::solver::reduced::Window;
 
     #[test]
     fn the_catalogue_has_every_model() {
         assert_eq!(catalogue().len(), MODELS.len());
+    }
+
+    #[test]
+    fn outlines_have_everything_but_the_modes() {
+        for (name, _) in MODELS {
+            let (whole, outline) = (embedded(name).unwrap(), outline(name).unwrap());
+            assert!(outline.is_outline() && !whole.is_outline(), "{name}");
+            assert_eq!((&outline.domain, &outline.title, &outline.log), (&whole.domain, &whole.title, &whole.log));
+            assert_eq!([&outline, &whole].map(name_of), [Some(name.to_owned()), Some(name.to_owned())]);
+            for (own, window) in outline.windows.iter().zip(&whole.windows) {
+                assert_eq!((own.size(), own.grid.spec()), (window.size(), window.grid.spec()));
+                assert_eq!((&own.sampled_rows, own.anchor), (&window.sampled_rows, window.anchor));
+                assert_eq!(own.pressure.singular_values(), window.pressure.singular_values());
+                assert_eq!(own.deformation.singular_values, window.deformation.singular_values);
+                let points = |window: &Window| window.snapshots.iter().map(|s| (s.point, s.h_c)).collect::<Vec<_>>();
+                assert_eq!(points(own), points(window));
+            }
+            assert_eq!(outline.windows.len(), whole.windows.len());
+        }
     }
 
     #[test]

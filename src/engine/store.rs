@@ -98,7 +98,12 @@ impl Store {
     /// Returns a reduced solver without stored solutions. Its operators may be those of a previous one.
     pub fn online(&self, model: &Arc<ReducedModel>, options: ReducedOptions) -> Online {
         let idle = take(&self.0.online, |idle| Arc::ptr_eq(&idle.model, model) && *idle.options() == options);
-        idle.unwrap_or_else(|| Online::new(Arc::clone(model), options))
+        idle.unwrap_or_else(|| {
+            if worker::is_crowded() {
+                self.forget_unused_models();
+            }
+            Online::new(Arc::clone(model), options)
+        })
     }
 
     /// Stores the operators of a reduced solver that is no longer needed.

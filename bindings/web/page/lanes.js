@@ -10,6 +10,9 @@ const REST = 2000;
 // Lane of the reduced solves for the picture. Its worker may be larger, because another one must read the models again.
 export const LIVE = 2;
 const LARGE_LIVE = 160 << 20;
+// Memory of all workers above which idle ones are ended: those of other lanes at once, that of the live picture after
+// its rest.
+const MOST = 240 << 20;
 
 export class Lanes {
   constructor(deliver) {
@@ -39,19 +42,29 @@ export class Lanes {
       worker = new Worker(new URL("./worker.js", import.meta.url), { type: "module", name: `solver ${lane}` });
       worker.postMessage({ module: this.module });
       worker.onmessage = ({ data: { ticket, bytes, ended, broken, memory } }) => {
+        worker.memory = memory ?? worker.memory;
         if (bytes && this.tasks.has(ticket)) this.deliver(ticket, bytes);
         if (ended) {
-          worker.memory = memory;
           this.forget(ticket);
-          const rests = () => this.workers.get(lane) === worker && this.running(lane) === undefined;
-          if (memory > (lane === LIVE ? LARGE_LIVE : LARGE)) setTimeout(() => rests() && performance.now() - worker.asked >= REST && this.end(lane), REST);
+          setTimeout(() => this.workers.get(lane) === worker && this.free(), REST);
         }
         if (broken) this.end(lane);
+        if (this.memory() > MOST) this.free();
       };
       worker.onerror = () => this.end(lane);
       this.workers.set(lane, worker);
     }
     return worker;
+  }
+
+  // Ends idle workers with much memory.
+  free() {
+    for (const [lane, worker] of this.workers) {
+      const rests = performance.now() - worker.asked >= REST;
+      const much = worker.memory > (lane === LIVE ? LARGE_LIVE : LARGE) || this.memory() > MOST;
+      const soon = this.memory() > MOST && lane !== LIVE;
+      if (much && (rests || soon) && this.running(lane) === undefined) this.end(lane);
+    }
   }
 
   // Memory of the workers in bytes.

@@ -35,7 +35,7 @@ globalThis.ehl = {
   },
   send(ticket, event) {
     const bytes = event.slice();
-    postMessage({ ticket, bytes }, [bytes.buffer]);
+    postMessage({ ticket, bytes, memory: memory.buffer.byteLength }, [bytes.buffer]);
   },
   stops: () => (exists(wishes[0]) ? 0 : exists(wishes[1]) ? 1 : 2),
   post: () => false,

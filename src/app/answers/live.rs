@@ -6,7 +6,7 @@
 //! responsive, and the result appears in a later frame. A panic in the solver does not end the program.
 
 use super::ask::Ask;
-use crate::engine::job::{Ending, Given, Job, Queue, Reporter, Standing, Task, Wake};
+use crate::engine::job::{Ending, Given, Job, JobError, Queue, Reporter, Standing, Task, Wake};
 use crate::engine::{Answer, Solver, Store, Warning, answer, name_of};
 use crate::host::worker;
 use crate::scene::{Grid, Method};
@@ -43,6 +43,8 @@ struct Running {
     solved: Option<Box<Answer>>,
     ending: Option<Ending>,
     job: Job<Box<Answer>>,
+    /// What another attempt needs if the instance that solves ends. `None` in the second attempt.
+    again: Option<(egui::Context, Arc<ReducedModel>)>,
 }
 
 impl Running {
@@ -51,6 +53,13 @@ impl Running {
         if ending.is_none() {
             *ending = job.poll_within(patience, |answer| *solved = Some(answer));
         }
+    }
+
+    /// Returns what another attempt needs if the instance that solved has ended, and no stop was requested.
+    fn lost(&mut self) -> Option<(egui::Context, Arc<ReducedModel>)> {
+        self.receive_within(Duration::ZERO);
+        let lost = matches!(self.ending, Some(Err(JobError::Lost))) && !self.job.stopping();
+        if lost { self.again.take() } else { None }
     }
 
     /// Returns the result once the solve has ended.
@@ -119,17 +128,25 @@ impl Live {
 
     /// Submits a request in place of one that has not started, and waits briefly for its result.
     pub fn submit(&mut self, ctx: &egui::Context, ask: Ask, model: Arc<ReducedModel>) {
+        let again = Some((ctx.clone(), Arc::clone(&model)));
+        self.attempt(ctx, (ask, model), again);
+    }
+
+    fn attempt(
+        &mut self,
+        ctx: &egui::Context,
+        (ask, model): (Ask, Arc<ReducedModel>),
+        again: Option<(egui::Context, Arc<ReducedModel>)>,
+    ) {
         let late = Arc::new(AtomicBool::new(false));
         let wake = wake_where(ctx, Arc::clone(&late));
         self.running.iter().for_each(|running| running.job.give_up_after(LIVE_PATIENCE));
         let job = match self.away.as_ref().zip(name_of(&model)) {
-            Some((away, name)) => {
-                away.submit(0, NAME, wake, LiveSolve { ask, model: Given::Program(name) })
-            }
+            Some((away, name)) => away.submit(0, NAME, wake, LiveSolve { ask, model: Given::Program(name) }),
             None => self.queue.submit(0, NAME, wake, (ask, model)),
         };
         self.running.retain(|running| running.job.begun());
-        let mut running = Running { ask, solved: None, ending: None, job };
+        let mut running = Running { ask, solved: None, ending: None, job, again };
         running.receive_within(self.patience);
         if running.ending.is_none() {
             // From here on the job requests a repaint when it ends. A job that ended just before did not, so poll
@@ -147,9 +164,13 @@ impl Live {
     /// newer request return nothing.
     pub fn poll(&mut self) -> Vec<(Ask, Answered)> {
         let mut answers = Vec::new();
-        let mut newer = self.running.len();
+        let (mut newer, mut lost) = (self.running.len(), None);
         self.running.retain_mut(|running| {
             newer -= 1;
+            if let Some((ctx, model)) = running.lost() {
+                lost = Some((ctx, running.ask, model)).filter(|_| newer == 0);
+                return false;
+            }
             let Some(answer) = running.answer() else { return true };
             self.waited_s = running.job.since().seconds();
             if answer.is_ok() || newer == 0 {
@@ -157,6 +178,9 @@ impl Live {
             }
             false
         });
+        if let Some((ctx, ask, model)) = lost {
+            self.attempt(&ctx, (ask, model), None);
+        }
         answers
     }
 
@@ -234,7 +258,7 @@ impl Live {
             }
             Err("cancelled".to_owned().into())
         });
-        self.running.push(Running { ask, solved: None, ending: None, job });
+        self.running.push(Running { ask, solved: None, ending: None, job, again: None });
     }
 }
 
@@ -319,6 +343,29 @@ mod tests {
         live.submit(&ctx, ask_at(1.0), model);
         live.forget();
         assert!(!live.busy() && live.poll().is_empty());
+    }
+
+    #[test]
+    fn a_solve_whose_worker_has_ended_is_repeated_once() {
+        let (ctx, model) = (egui::Context::default(), embedded("line").unwrap());
+        let lost = |again| Running {
+            ask: ask_at(1.0),
+            solved: None,
+            ending: None,
+            job: Job::start("Reduced solve", Wake::default(), |_| Err(JobError::Lost)),
+            again,
+        };
+        for (again, repeats) in [(Some((ctx, model)), true), (None, false)] {
+            let (mut live, begin) = (patient(), Stopwatch::start());
+            live.running.push(lost(again));
+            let answer = loop {
+                if let Some((_, answer)) = live.poll().pop() {
+                    break answer;
+                }
+                assert!(live.busy() && begin.elapsed() < Duration::from_secs(60));
+            };
+            assert_eq!(answer.is_ok(), repeats);
+        }
     }
 
     #[test]

@@ -147,8 +147,8 @@ pub(in crate::engine) fn from_own_bytes(bytes: &[u8], observer: &dyn Observer) -
     })
 }
 
-/// Reads a steady model without its bases from trusted bytes. It has everything that the screen shows of a model, except
-/// the modes; it cannot solve.
+/// Reads a steady model without its bases, calibrations and kernels from trusted bytes. It has everything that the screen
+/// shows of a model, except the modes; it cannot solve.
 ///
 /// # Errors
 /// If the file is damaged or of a transient model.

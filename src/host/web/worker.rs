@@ -9,7 +9,7 @@ use std::time::Duration;
 pub const THREADS: bool = false;
 
 /// Memory of this instance above which reduced models that can be read again are dropped \[bytes\].
-const MEMORY_LIMIT: usize = 160 << 20;
+const MEMORY_LIMIT: usize = 128 << 20;
 /// Bytes of a page of WebAssembly's memory.
 const PAGE: usize = 1 << 16;
 
