@@ -57,9 +57,10 @@ export class Lanes {
     return worker;
   }
 
-  // Ends idle workers with much memory.
+  // Ends idle workers with much memory, the largest first.
   free() {
-    for (const [lane, worker] of this.workers) {
+    const bySize = [...this.workers].sort(([, a], [, b]) => (b.memory ?? 0) - (a.memory ?? 0));
+    for (const [lane, worker] of bySize) {
       const rests = performance.now() - worker.asked >= REST;
       const much = worker.memory > (lane === LIVE ? LARGE_LIVE : LARGE) || this.memory() > MOST;
       const soon = this.memory() > MOST && lane !== LIVE;

@@ -130,6 +130,8 @@ async function checkPixels(canvas) {
       resolve(entry.devicePixelContentBoxSize[0].inlineSize);
     });
     observer.observe(canvas);
+    // A hidden page observes nothing.
+    setTimeout(resolve, 500);
   });
   if (Math.abs(width - canvas.clientWidth * devicePixelRatio) > 1.5) delete told.devicePixelContentBoxSize;
 }
