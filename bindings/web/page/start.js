@@ -52,6 +52,8 @@ async function model(name, progress) {
   const bytes = await fetched(MODELS[name].file, progress);
   models.set(name, bytes);
   lanes.files[name] = URL.createObjectURL(new Blob([bytes]));
+  // The program reads the file in a task of its own, so that the page stays responsive.
+  await new Promise((resolve) => setTimeout(resolve));
 }
 
 const lanes = new Lanes((ticket, bytes) => deliver(ticket, bytes));
