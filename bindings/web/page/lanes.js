@@ -20,6 +20,8 @@ export class Lanes {
     this.module = null;
     this.workers = new Map();
     this.tasks = new Map();
+    this.spare = [];
+    this.nothing = new Blob(["go on"]);
     // Addresses of the model files that the page has fetched, which need no network.
     this.files = {};
   }
@@ -27,7 +29,8 @@ export class Lanes {
   post(lane, ticket, kind, task) {
     if (!this.module) return false;
     // The worker checks whether these addresses still exist. This way it receives a stop request without returning.
-    const wishes = [1, 2].map(() => URL.createObjectURL(new Blob(["go on"])));
+    // Making an address takes a millisecond, so that those of ended tasks are used again.
+    const wishes = [1, 2].map(() => this.spare.pop() ?? URL.createObjectURL(this.nothing));
     this.tasks.set(ticket, { lane, wishes, revoked: 0 });
     const bytes = task.slice();
     const worker = this.worker(lane);
@@ -90,7 +93,8 @@ export class Lanes {
   }
 
   forget(ticket) {
-    this.tasks.get(ticket)?.wishes.forEach((wish) => URL.revokeObjectURL(wish));
+    const task = this.tasks.get(ticket);
+    if (task) this.spare.push(...task.wishes.slice(task.revoked));
     this.tasks.delete(ticket);
   }
 
