@@ -141,7 +141,8 @@ impl Live {
         let late = Arc::new(AtomicBool::new(false));
         let wake = wake_where(ctx, Arc::clone(&late));
         self.running.iter().for_each(|running| running.job.give_up_after(LIVE_PATIENCE));
-        let job = match self.away.as_ref().zip(name_of(&model)) {
+        let away = self.away.as_ref();
+        let job = match away.and_then(|away| Some((away, name_of(&model)?))) {
             Some((away, name)) => away.submit(0, NAME, wake, LiveSolve { ask, model: Given::Program(name) }),
             None => self.queue.submit(0, NAME, wake, (ask, model)),
         };

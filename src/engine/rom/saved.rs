@@ -155,7 +155,7 @@ pub(in crate::engine) fn from_own_bytes(bytes: &[u8], observer: &dyn Observer) -
 pub(in crate::engine) fn outline_from_own_bytes(bytes: &[u8]) -> Result<ReducedModel, ModelFileError> {
     let contents = Contents::outline(bytes)?;
     match contents.kind() {
-        ModelKind::Steady => steady::decode(&contents, &()),
+        ModelKind::Steady => on_all_cores(|| steady::decode(&contents, &())),
         ModelKind::Transient => Err(ModelFileError::InTime),
     }
 }
