@@ -53,12 +53,12 @@ pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
     };
     let waits = answers.runs(JobKind::Live);
     let full = match () {
-        () if waits && !answers.picture_is_current() => "full solve running".to_owned(),
-        () if answers.picture_is_current() && answers.is_quick() => format!("sketch on a quick grid{}", off(picture)),
+        () if waits && !answers.picture_follows() => "full solve running".to_owned(),
+        () if answers.picture_follows() && answers.is_quick() => format!("sketch on a quick grid{}", off(picture)),
         () => "full solution".to_owned(),
     };
     // The warnings of a picture that still belongs to another contact are not shown here.
-    let warned = answers.current_picture().map_or_else(String::new, Picture::warned);
+    let warned = answers.shown_picture().map_or_else(String::new, Picture::warned);
     match (picture.origin, answers.passed_over()) {
         (_, Some(PassedOver::Outside(why))) => make(
             "Outside the trained range",
@@ -78,7 +78,7 @@ pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
             "The reduced model of such contacts is being read. Until then the full solver draws the picture".to_owned(),
             Kind::Neutral,
         ),
-        (origin, _) if !answers.picture_is_current() => make(
+        (origin, _) if !answers.picture_follows() => make(
             "Computing",
             if origin == Origin::Full { full } else { "reduced solve running".to_owned() },
             "The picture belongs to the previous position of the sliders".to_owned(),

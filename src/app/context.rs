@@ -47,7 +47,7 @@ impl Context<'_> {
     pub fn regime_ratios(&self) -> Ratios {
         let point = &self.document.point;
         let estimate = || RegimeMap::new(FilmShape::of(point)).at(point.moes());
-        self.answers.current_picture().map_or_else(estimate, |picture| Ratios::of(&picture.solution))
+        self.answers.shown_picture().map_or_else(estimate, |picture| Ratios::of(&picture.solution))
     }
 }
 

@@ -38,7 +38,7 @@ impl Owner {
         let document = context.document;
         let serves = |model: &InUse| context.answers.in_use(document).as_ref() == Some(model);
         match self {
-            Self::Contact(key) => *key == document.key(),
+            Self::Contact(key) => *key == document.key() || context.answers.shows(key),
             Self::Model(model) => serves(model),
             Self::ContactByModel(key, model) => *key == document.key() && serves(model),
             Self::Transient(setup) => **setup == Setup::of(document, context.file),

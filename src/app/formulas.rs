@@ -16,7 +16,7 @@ use egui::{Grid, RichText, Ui};
 
 /// Returns the comparison as CSV.
 pub fn csv(context: &Context<'_>) -> String {
-    let picture = context.answers.current_picture();
+    let picture = context.answers.shown_picture();
     let point = &context.document.point;
     let mut sources = Vec::new();
     let mut table = Table::new("formulas", &["film_m", "own_film_m", "deviation", "in_range"]);
@@ -66,7 +66,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         }
     }
     ui.add_space(4.0);
-    let picture = context.answers.current_picture();
+    let picture = context.answers.shown_picture();
     for reason in picture.map(|picture| reasons(&picture.solution)).unwrap_or_default() {
         ui.label(RichText::new(reason).small());
     }
@@ -100,7 +100,7 @@ fn reasons(solution: &Solution) -> Vec<String> {
 
 /// Draws the table without title.
 pub fn table(ui: &mut Ui, context: &Context<'_>) {
-    let picture = context.answers.current_picture();
+    let picture = context.answers.shown_picture();
     let central = picture.map(|p| p.central_film_m());
     let minimum = picture.map(|p| p.minimum_film_m());
     Grid::new("formulas").num_columns(4).spacing([10.0, 5.0]).striped(true).show(ui, |ui| {

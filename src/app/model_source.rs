@@ -2,7 +2,7 @@
 //! that the user has put in their place.
 
 use crate::engine::registry::{alike, best, loads_in_common};
-use crate::engine::{Store, catalogue, name_of};
+use crate::engine::{Store, catalogue};
 use crate::host::pool::on_all_cores;
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Lubricant;
@@ -51,24 +51,13 @@ impl Models {
     /// Until then the full solver computes the pictures.
     pub fn embedded(store: &Store) -> Self {
         // Reading a model computes its operators. Read all of them in parallel, because the window waits.
-        let read = |name: &'static str| (name, store.embedded(name).ok());
+        let read = |name: &'static str| (name, store.shown(name).ok());
         let first: Vec<_> = on_all_cores(|| FIRST.into_par_iter().map(read).collect());
         let mut known: Vec<Known> = first.iter().filter_map(|(_, model)| model.clone()).map(Known::Read).collect();
         let there = |name| first.iter().any(|(first, model)| *first == name && model.is_some());
         let later = catalogue().iter().filter(|entry| !there(entry.name));
         known.extend(later.map(|entry| Known::Later(entry.name, &entry.domain)));
         Self { known }
-    }
-
-    /// Gives back the program's models but for that of line contacts. Each is read again when it is next needed.
-    pub fn give_back(&mut self) {
-        for known in &mut self.known {
-            let Some(name) = known.model().and_then(name_of) else { continue };
-            let entry = catalogue().iter().find(|entry| entry.name == name);
-            if let Some(entry) = entry.filter(|entry| entry.name != FIRST[0]) {
-                *known = Known::Later(entry.name, &entry.domain);
-            }
-        }
     }
 
     /// Returns a list with only this model, or an empty list.

@@ -2,8 +2,10 @@
 
 use crate::app::animations::AnimationTask;
 use crate::app::answers::jobs::FullSolve;
+use crate::app::answers::live::LiveSolve;
 use crate::app::figure::ToImage;
 use crate::app::reports::Solves;
+use crate::app::tabs::basis::ModesTask;
 use crate::app::tabs::profiles::StressTask;
 use crate::app::tabs::training::TrainingTask;
 use crate::app::tabs::transient::{NumberTask, OtherRuleTask};
@@ -21,6 +23,8 @@ pub fn perform(kind: &str, task: &[u8], store: &Store, performer: Performer) {
         };
     }
     of!(
+        LiveSolve,
+        ModesTask,
         FullSolve,
         Asked,
         Replayed,

@@ -67,8 +67,15 @@ pub fn bytes_of(name: &str) -> Option<Cow<'static, [u8]>> {
     if cfg!(feature = "models") { Some(Cow::Borrowed(held)) } else { models::now(name).map(Cow::Owned) }
 }
 
-/// Loaded models, by name.
-pub(super) type Read = Vec<(String, Arc<ReducedModel>)>;
+/// Loaded models and outlines.
+pub(super) type Read = Vec<Loaded>;
+
+/// Loaded model, or the outline of one.
+pub(super) struct Loaded {
+    name: String,
+    outline: bool,
+    model: Arc<ReducedModel>,
+}
 
 static READ: Mutex<Read> = Mutex::new(Vec::new());
 
@@ -83,14 +90,14 @@ pub(super) fn hold() -> MutexGuard<'static, Read> {
     read()
 }
 
-/// Returns the name of a loaded embedded model; `None` for other models.
+/// Returns the name of a loaded embedded model or outline; `None` for other models.
 pub fn name_of(model: &Arc<ReducedModel>) -> Option<String> {
-    read().iter().find(|(_, read)| Arc::ptr_eq(read, model)).map(|(name, _)| name.clone())
+    read().iter().find(|own| Arc::ptr_eq(&own.model, model)).map(|own| own.name.clone())
 }
 
 /// Frees the models that are not in use.
 pub(super) fn forget_unused() {
-    read().retain(|(_, model)| Arc::strong_count(model) > 1);
+    read().retain(|own| Arc::strong_count(&own.model) > 1);
 }
 
 /// Loads an embedded model. Its consistency is checked by tests, not here.
@@ -106,16 +113,39 @@ pub fn embedded(name: &str) -> Result<Arc<ReducedModel>, ModelFileError> {
 /// # Errors
 /// As [`embedded`], and if the observer cancels.
 pub(super) fn embedded_watched(name: &str, observer: &dyn Observer) -> Result<Arc<ReducedModel>, ModelFileError> {
-    let known = |read: &Read| read.iter().find(|(known, _)| known == name).map(|(_, model)| Arc::clone(model));
+    loaded(name, false, |bytes| rom::from_own_bytes(bytes, observer)?.stationary())
+}
+
+/// Loads the outline of an embedded model: everything that the screen shows except the modes. It cannot solve.
+///
+/// # Errors
+/// As [`embedded`].
+pub(super) fn outline(name: &str) -> Result<Arc<ReducedModel>, ModelFileError> {
+    loaded(name, true, |bytes| rom::outline_from_own_bytes(bytes).map(Arc::new))
+}
+
+/// Returns true if an embedded model is loaded.
+pub(super) fn is_loaded(name: &str) -> bool {
+    read().iter().any(|own| own.name == name && !own.outline)
+}
+
+fn loaded(
+    name: &str,
+    outline: bool,
+    load: impl FnOnce(&[u8]) -> Result<Arc<ReducedModel>, ModelFileError>,
+) -> Result<Arc<ReducedModel>, ModelFileError> {
+    let known = |read: &Read| {
+        let own = read.iter().find(|own| own.name == name && own.outline == outline);
+        own.map(|own| Arc::clone(&own.model))
+    };
     if let Some(model) = known(&read()) {
         return Ok(model);
     }
-    let bytes = bytes_of(name).ok_or(ModelFileError::Foreign)?;
-    let model = rom::from_own_bytes(&bytes, observer)?.stationary()?;
+    let model = load(&bytes_of(name).ok_or(ModelFileError::Missing)?)?;
     let mut read = read();
     // If another thread has loaded it in the meantime, that copy is used.
     Ok(known(&read).unwrap_or_else(|| {
-        read.push((name.to_owned(), Arc::clone(&model)));
+        read.push(Loaded { name: name.to_owned(), outline, model: Arc::clone(&model) });
         model
     }))
 }
@@ -148,10 +178,30 @@ pub fn in_time(kind: ContactKind) -> Result<Arc<TrajectoryModel>, ModelFileError
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::solver::reduced::Window;
 
     #[test]
     fn the_catalogue_has_every_model() {
         assert_eq!(catalogue().len(), MODELS.len());
+    }
+
+    #[test]
+    fn outlines_have_everything_but_the_modes() {
+        for (name, _) in MODELS {
+            let (whole, outline) = (embedded(name).unwrap(), outline(name).unwrap());
+            assert!(outline.is_outline() && !whole.is_outline(), "{name}");
+            assert_eq!((&outline.domain, &outline.title, &outline.log), (&whole.domain, &whole.title, &whole.log));
+            assert_eq!([&outline, &whole].map(name_of), [Some(name.to_owned()), Some(name.to_owned())]);
+            for (own, window) in outline.windows.iter().zip(&whole.windows) {
+                assert_eq!((own.size(), own.grid.spec()), (window.size(), window.grid.spec()));
+                assert_eq!((&own.sampled_rows, own.anchor), (&window.sampled_rows, window.anchor));
+                assert_eq!(own.pressure.singular_values(), window.pressure.singular_values());
+                assert_eq!(own.deformation.singular_values, window.deformation.singular_values);
+                let points = |window: &Window| window.snapshots.iter().map(|s| (s.point, s.h_c)).collect::<Vec<_>>();
+                assert_eq!(points(own), points(window));
+            }
+            assert_eq!(outline.windows.len(), whole.windows.len());
+        }
     }
 
     #[test]

@@ -25,8 +25,8 @@ const KEPT_POINTS: usize = if worker::THREADS { 3 } else { 1 };
 /// Maximum number of stored reduced models in addition to those in the program. A model of several local models uses
 /// about ten megabytes.
 const KEPT_MODELS: usize = 12;
-/// Maximum number of idle reduced solvers.
-const KEPT_ONLINE: usize = 8;
+/// Maximum number of idle reduced solvers. The operators of one take some ten megabytes.
+const KEPT_ONLINE: usize = if worker::THREADS { 8 } else { 3 };
 
 /// Grids, solvers and models, made at their first use and stored. Clones share everything, and any thread may use
 /// them.
@@ -98,7 +98,12 @@ impl Store {
     /// Returns a reduced solver without stored solutions. Its operators may be those of a previous one.
     pub fn online(&self, model: &Arc<ReducedModel>, options: ReducedOptions) -> Online {
         let idle = take(&self.0.online, |idle| Arc::ptr_eq(&idle.model, model) && *idle.options() == options);
-        idle.unwrap_or_else(|| Online::new(Arc::clone(model), options))
+        idle.unwrap_or_else(|| {
+            if worker::is_crowded() {
+                self.forget_unused_models();
+            }
+            Online::new(Arc::clone(model), options)
+        })
     }
 
     /// Stores the operators of a reduced solver that is no longer needed.
@@ -115,13 +120,34 @@ impl Store {
         self.embedded_watched(name, &())
     }
 
+    /// Returns a reduced model of the program as the screen shows it: complete if this instance of the program solves
+    /// with it. A web page solves in workers and reads only the outline, because reading the bases takes half a second
+    /// and much memory.
+    ///
+    /// # Errors
+    /// As [`Self::embedded`].
+    pub fn shown(&self, name: &str) -> Result<Arc<ReducedModel>, ModelFileError> {
+        if worker::THREADS { self.embedded(name) } else { embedded::outline(name) }
+    }
+
+    /// Returns the complete model of an outline, or the model itself.
+    ///
+    /// # Errors
+    /// As [`Self::embedded`].
+    pub fn whole(&self, model: &Arc<ReducedModel>) -> Result<Arc<ReducedModel>, ModelFileError> {
+        match embedded::name_of(model).filter(|_| model.is_outline()) {
+            Some(name) => self.embedded(&name),
+            None => Ok(Arc::clone(model)),
+        }
+    }
+
     /// Frees the operators of idle reduced solvers, and the models of the program that are not in use.
     pub fn forget_unused_models(&self) {
         lock(&self.0.online).clear();
         embedded::forget_unused();
     }
 
-    /// Starts a job that reads a reduced model of the program by its name, once its file is available.
+    /// Starts a job that reads a reduced model of the program for [`Self::shown`], once its file is available.
     pub fn read(&self, name: &'static str, wake: Wake) -> Job<Arc<ReducedModel>> {
         let store = self.clone();
         Job::once(
@@ -129,7 +155,7 @@ impl Store {
             wake,
             |begin| models::then(name, begin),
             move |reporter| {
-                reporter.send(on_spare_cores(|| store.embedded(name)).map_err(|error| error.to_string())?);
+                reporter.send(on_spare_cores(|| store.shown(name)).map_err(|error| error.to_string())?);
                 Ok(())
             },
         )
@@ -142,6 +168,9 @@ impl Store {
         name: &str,
         observer: &dyn Observer,
     ) -> Result<Arc<ReducedModel>, ModelFileError> {
+        if worker::is_crowded() && !embedded::is_loaded(name) {
+            self.forget_unused_models();
+        }
         embedded::embedded_watched(name, observer)
     }
 

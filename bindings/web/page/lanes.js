@@ -7,6 +7,12 @@ const PATIENCE = [Infinity, 1500, 300];
 // for this number of milliseconds. The next task starts another one.
 const LARGE = 64 << 20;
 const REST = 2000;
+// Lane of the reduced solves for the picture. Its worker may be larger, because another one must read the models again.
+export const LIVE = 2;
+const LARGE_LIVE = 160 << 20;
+// Memory of all workers above which idle ones are ended: those of other lanes at once, that of the live picture after
+// its rest.
+const MOST = 240 << 20;
 
 export class Lanes {
   constructor(deliver) {
@@ -14,17 +20,22 @@ export class Lanes {
     this.module = null;
     this.workers = new Map();
     this.tasks = new Map();
+    this.spare = [];
+    this.nothing = new Blob(["go on"]);
+    // Addresses of the model files that the page has fetched, which need no network.
+    this.files = {};
   }
 
   post(lane, ticket, kind, task) {
     if (!this.module) return false;
     // The worker checks whether these addresses still exist. This way it receives a stop request without returning.
-    const wishes = [1, 2].map(() => URL.createObjectURL(new Blob(["go on"])));
+    // Making an address takes a millisecond, so that those of ended tasks are used again.
+    const wishes = [1, 2].map(() => this.spare.pop() ?? URL.createObjectURL(this.nothing));
     this.tasks.set(ticket, { lane, wishes, revoked: 0 });
     const bytes = task.slice();
     const worker = this.worker(lane);
     worker.asked = performance.now();
-    worker.postMessage({ ticket, kind, bytes, wishes }, [bytes.buffer]);
+    worker.postMessage({ ticket, kind, bytes, wishes, models: this.files }, [bytes.buffer]);
     return true;
   }
 
@@ -34,19 +45,30 @@ export class Lanes {
       worker = new Worker(new URL("./worker.js", import.meta.url), { type: "module", name: `solver ${lane}` });
       worker.postMessage({ module: this.module });
       worker.onmessage = ({ data: { ticket, bytes, ended, broken, memory } }) => {
+        worker.memory = memory ?? worker.memory;
         if (bytes && this.tasks.has(ticket)) this.deliver(ticket, bytes);
         if (ended) {
-          worker.memory = memory;
           this.forget(ticket);
-          const rests = () => this.workers.get(lane) === worker && this.running(lane) === undefined;
-          if (memory > LARGE) setTimeout(() => rests() && performance.now() - worker.asked >= REST && this.end(lane), REST);
+          setTimeout(() => this.workers.get(lane) === worker && this.free(), REST);
         }
         if (broken) this.end(lane);
+        if (this.memory() > MOST) this.free();
       };
       worker.onerror = () => this.end(lane);
       this.workers.set(lane, worker);
     }
     return worker;
+  }
+
+  // Ends idle workers with much memory, the largest first.
+  free() {
+    const bySize = [...this.workers].sort(([, a], [, b]) => (b.memory ?? 0) - (a.memory ?? 0));
+    for (const [lane, worker] of bySize) {
+      const rests = performance.now() - worker.asked >= REST;
+      const much = worker.memory > (lane === LIVE ? LARGE_LIVE : LARGE) || this.memory() > MOST;
+      const soon = this.memory() > MOST && lane !== LIVE;
+      if (much && (rests || soon) && this.running(lane) === undefined) this.end(lane);
+    }
   }
 
   // Memory of the workers in bytes.
@@ -71,7 +93,8 @@ export class Lanes {
   }
 
   forget(ticket) {
-    this.tasks.get(ticket)?.wishes.forEach((wish) => URL.revokeObjectURL(wish));
+    const task = this.tasks.get(ticket);
+    if (task) this.spare.push(...task.wishes.slice(task.revoked));
     this.tasks.delete(ticket);
   }
 

@@ -1,7 +1,7 @@
 // Starts the explorer on the canvas, and provides the browser functions that it needs.
 import init, { start, deliver, dropped, opened } from "./ehl_web.js";
 import { CACHE, MODULE, MODELS } from "./files.js";
-import { Lanes } from "./lanes.js";
+import { LIVE, Lanes } from "./lanes.js";
 
 const element = (id) => document.getElementById(id);
 const LARGEST_FILE = 64 << 20;
@@ -48,7 +48,12 @@ async function fetched(file, progress) {
 const models = new Map();
 async function model(name, progress) {
   if (!(name in MODELS)) throw new Error(`there is no model ${name}`);
-  if (!models.has(name)) models.set(name, await fetched(MODELS[name].file, progress));
+  if (models.has(name)) return;
+  const bytes = await fetched(MODELS[name].file, progress);
+  models.set(name, bytes);
+  lanes.files[name] = URL.createObjectURL(new Blob([bytes]));
+  // The program reads the file in a task of its own, so that the page stays responsive.
+  await new Promise((resolve) => setTimeout(resolve));
 }
 
 const lanes = new Lanes((ticket, bytes) => deliver(ticket, bytes));
@@ -82,12 +87,7 @@ globalThis.ehl = {
   fetch_model(name, ticket) {
     model(name).then(() => deliver(ticket, new Uint8Array()), () => deliver(ticket, undefined));
   },
-  // The program decodes the file only once, so that the bytes need not be stored.
-  model(name) {
-    const bytes = models.get(name);
-    models.delete(name);
-    return bytes;
-  },
+  model: (name) => models.get(name),
   link(fragment) {
     if (location.hash !== fragment) history.replaceState(history.state, "", fragment || location.pathname + location.search);
   },
@@ -121,6 +121,23 @@ for (const event of ["dragover", "drop"]) {
 
 window.addEventListener("hashchange", () => opened(location.hash));
 
+// Chromium reports a wrong number of device pixels while it emulates a tablet. The explorer would then be drawn larger
+// than it is touched. Without this number, it computes its size from `devicePixelRatio`.
+async function checkPixels(canvas) {
+  const told = globalThis.ResizeObserverEntry?.prototype;
+  if (!told || !("devicePixelContentBoxSize" in told)) return;
+  const width = await new Promise((resolve) => {
+    const observer = new ResizeObserver(([entry]) => {
+      observer.disconnect();
+      resolve(entry.devicePixelContentBoxSize[0].inlineSize);
+    });
+    observer.observe(canvas);
+    // A hidden page observes nothing.
+    setTimeout(resolve, 500);
+  });
+  if (Math.abs(width - canvas.clientWidth * devicePixelRatio) > 1.5) delete told.devicePixelContentBoxSize;
+}
+
 async function run() {
   if (typeof WebAssembly !== "object") throw new Error("this browser has no WebAssembly");
   const sizes = { module: MODULE.bytes, line: MODELS.line.bytes };
@@ -133,10 +150,13 @@ async function run() {
   const bytes = await fetched(MODULE.file, progress("module"));
   const module = await WebAssembly.compile(bytes);
   lanes.module = module;
+  // Its instance starts while that of the page does.
+  lanes.worker(LIVE);
   const { memory } = await init({ module_or_path: module });
   globalThis.ehl.memory = () => memory.buffer.byteLength + lanes.memory();
   await line;
   say("The program starts.");
+  await checkPixels(element("explorer"));
   await start(element("explorer"));
   element("waiting").className = "done";
   element("explorer").focus();

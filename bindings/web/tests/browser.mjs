@@ -19,7 +19,7 @@ const SLOW = Number(process.env.SLOW ?? 1);
 const TABS = [348, 421, 498, 560, 638, 720, 783, 847, 904, 956];
 const ROLLER = [34, 66];
 const BALL = [87, 66];
-const VERIFY = [749, 107];
+const VERIFY = [862, 107];
 const M = { from: [150, 93], to: [165, 93] };
 
 const profile = mkdtempSync(join(tmpdir(), "ehl-web-"));
@@ -28,6 +28,8 @@ const context = await chromium.launchPersistentContext(profile, {
   executablePath: BROWSER, args: FLAGS, viewport: SIZE, acceptDownloads: true, colorScheme: "dark",
 });
 let page;
+// Address of the first contact. A page that is opened with it does not restore the session.
+let first;
 const foreign = [];
 const broken = [];
 context.on("request", (request) => {
@@ -81,6 +83,7 @@ const tests = {
   },
   async "dragging M changes the picture and the address"(page) {
     const before = [await news(page), await changed(page, "")];
+    first = before[1];
     await drag(page, M);
     const after = await changed(page, before[1]);
     await page.waitForFunction((before) => document.getElementById("news").textContent !== before, before[0], { timeout: 20_000 });
@@ -111,9 +114,10 @@ const tests = {
     await changed(page, before);
     await said(page, "Verified|Roughly right", 240_000);
     await picture(page, "ball");
-    const workers = page.workers().length;
-    console.log(`  longest task of the page ${(await page.evaluate(() => window.longest)).toFixed(0)} ms, ${workers} workers`);
-    assert(workers >= 1);
+    const [workers, longest] = [page.workers().length, await page.evaluate(() => window.longest)];
+    // The browser reports tasks above 50 ms only.
+    console.log(`  longest task of the page ${longest.toFixed(0)} ms, ${workers} workers`);
+    assert(workers >= 1 && longest < 50 * SLOW);
   },
   async "every tab opens"(page) {
     for (const [k, x] of TABS.entries()) {
@@ -163,9 +167,10 @@ const tests = {
     assert(bytes < 400e6);
   },
   async "a worker that breaks costs one solve, and the next one works"() {
-    const other = await opened();
+    const other = await opened(first);
     await other.mouse.click(...BALL);
     await said(other, "Verified|Roughly right", 240_000);
+    const ball = await news(other);
     await Promise.all(other.workers().map((worker) => worker.evaluate(() => {
       globalThis.ehl.send = () => {
         throw new Error("a message that cannot be sent");
@@ -175,7 +180,11 @@ const tests = {
     await other.waitForTimeout(2000);
     await picture(other, "broken worker");
     await other.mouse.click(...ROLLER);
-    await said(other, "Verified");
+    const roller = (ball) => {
+      const { textContent } = document.getElementById("news");
+      return textContent !== ball && /Verified/.test(textContent);
+    };
+    await other.waitForFunction(roller, ball, { timeout: 60_000 });
     await other.mouse.click(...VERIFY);
     await said(other, "Verified");
     broken.splice(0, broken.length, ...broken.filter((text) => !text.includes("a message that cannot be sent")));

@@ -1,6 +1,6 @@
 // Tests the lanes of a page with workers that never end: `node lanes.mjs`.
 import assert from "node:assert/strict";
-import { Lanes } from "../page/lanes.js";
+import { LIVE, Lanes } from "../page/lanes.js";
 
 const ended = [];
 globalThis.Worker = class {
@@ -40,4 +40,18 @@ assert.deepEqual([ended.length, [...lanes.workers.keys()]], [before + 1, [0, 2]]
 assert.equal(lanes.memory(), 40 << 20);
 lanes.post(3, 41, "study", new Uint8Array(4));
 assert.equal(lanes.running(3), 41);
+
+// Above the limit for all workers, idle ones are ended at once, except that of the live picture, which is ended after
+// its rest.
+lanes.post(LIVE, 150, "reduced solve", new Uint8Array(4));
+lanes.post(4, 90, "study", new Uint8Array(4));
+await pause(500);
+assert.deepEqual([...lanes.workers.keys()].sort(), [0, LIVE, 3]);
+await pause(2500);
+assert.deepEqual([...lanes.workers.keys()].sort(), [0, LIVE, 3]);
+lanes.post(LIVE, 170, "reduced solve", new Uint8Array(4));
+await pause(1000);
+assert(lanes.workers.has(LIVE));
+await pause(1500);
+assert(!lanes.workers.has(LIVE));
 console.log("1 passed, 0 failed");

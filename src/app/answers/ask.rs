@@ -5,12 +5,13 @@ use crate::app::in_use::InUse;
 use crate::app::model_source::Models;
 use crate::solver::discrete::grid::PointGridSpec;
 use crate::solver::reduced::ReducedOptions;
+use serde::{Deserialize, Serialize};
 
 /// Seconds without a change of the document after which a verification starts automatically.
 pub const REST_S: f64 = 0.25;
 
 /// Contact that the picture shall show, and the means to compute it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Ask {
     /// Contact.
     pub key: Key,

@@ -1,24 +1,30 @@
-//! Reduced solves for the picture. They run on a separate thread, and the frame waits for them for up to 100 ms.
+//! Reduced solves for the picture. They run on a separate thread, and the frame waits for them for up to 100 ms. On a
+//! web page they run in a worker, without waiting, except those by models of the user, which the page itself holds.
 //!
 //! Most solves take a millisecond, so that the picture changes within the frame. A solve that needs many
 //! continuation steps can take a second. The previous picture then stays on the screen in grey, the window remains
 //! responsive, and the result appears in a later frame. A panic in the solver does not end the program.
 
 use super::ask::Ask;
-use crate::engine::job::{Ending, Job, Queue, Reporter, Standing, Wake};
-use crate::engine::{Answer, Solver, Store, Warning, answer};
+use crate::engine::job::{Ending, Given, Job, JobError, Queue, Reporter, Standing, Task, Wake};
+use crate::engine::{Answer, Solver, Store, Warning, answer, name_of};
+use crate::host::worker;
 use crate::scene::{Grid, Method};
 use crate::solver::reduced::{Online, ReducedModel};
+use serde::{Deserialize, Serialize};
 use std::cell::RefCell;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 /// Delay that a user perceives as immediate.
-const AT_ONCE: Duration = Duration::from_millis(100);
+pub(super) const AT_ONCE: Duration = Duration::from_millis(100);
 /// Run time after which a newer request ends a solve. If every slider movement ended it, the picture would never
 /// change.
 const LIVE_PATIENCE: Duration = Duration::from_millis(400);
+
+/// Name of a solve on the screen.
+const NAME: &str = "Reduced solve";
 
 /// Reason why a request has no result.
 #[derive(Debug)]
@@ -37,6 +43,8 @@ struct Running {
     solved: Option<Box<Answer>>,
     ending: Option<Ending>,
     job: Job<Box<Answer>>,
+    /// What another attempt needs if the instance that solves ends. `None` in the second attempt.
+    again: Option<(egui::Context, Arc<ReducedModel>)>,
 }
 
 impl Running {
@@ -45,6 +53,13 @@ impl Running {
         if ending.is_none() {
             *ending = job.poll_within(patience, |answer| *solved = Some(answer));
         }
+    }
+
+    /// Returns what another attempt needs if the instance that solved has ended, and no stop was requested.
+    fn lost(&mut self) -> Option<(egui::Context, Arc<ReducedModel>)> {
+        self.receive_within(Duration::ZERO);
+        let lost = matches!(self.ending, Some(Err(JobError::Lost))) && !self.job.stopping();
+        if lost { self.again.take() } else { None }
     }
 
     /// Returns the result once the solve has ended.
@@ -59,9 +74,34 @@ impl Running {
     }
 }
 
+/// Reduced solve by another instance of the program.
+#[derive(Serialize, Deserialize)]
+pub struct LiveSolve {
+    ask: Ask,
+    model: Given,
+}
+
+impl Task for LiveSolve {
+    const KIND: &'static str = "reduced solve";
+    const LANE: usize = 2;
+    type Message = Box<Answer>;
+
+    fn run(self, store: &Store, reporter: &Reporter<Box<Answer>>) -> Ending {
+        let model = self.model.model(store)?;
+        let mut online = store.online(&model, self.ask.options);
+        let ending = solve(&mut online, &self.ask, reporter);
+        store.give_back(online);
+        ending
+    }
+}
+
 /// Reduced solves that wait or run.
 pub struct Live {
     queue: Queue<(Ask, Arc<ReducedModel>), Box<Answer>>,
+    /// Solves by other instances of the program, on systems without threads.
+    away: Option<Queue<LiveSolve, Box<Answer>>>,
+    /// Time between the last result and its request \[s\].
+    waited_s: f64,
     running: Vec<Running>,
     patience: Duration,
 }
@@ -69,6 +109,7 @@ pub struct Live {
 impl Live {
     /// Creates an empty queue that uses the operators of a store.
     pub fn new(store: &Store) -> Self {
+        let away = (!worker::THREADS).then(|| Queue::of_tasks("live picture", 1, store));
         let (store, last) = (store.clone(), RefCell::new(None));
         let queue = Queue::new("live picture", 1, move |(ask, model), reporter| {
             // After a panic the solver is lost and is not used again.
@@ -77,7 +118,7 @@ impl Live {
             last.replace(Some(online));
             ending
         });
-        Self { queue, running: Vec::new(), patience: AT_ONCE }
+        Self { queue, away, waited_s: 0.0, running: Vec::new(), patience: AT_ONCE }
     }
 
     /// Sets how long a frame waits for a result.
@@ -87,12 +128,26 @@ impl Live {
 
     /// Submits a request in place of one that has not started, and waits briefly for its result.
     pub fn submit(&mut self, ctx: &egui::Context, ask: Ask, model: Arc<ReducedModel>) {
+        let again = Some((ctx.clone(), Arc::clone(&model)));
+        self.attempt(ctx, (ask, model), again);
+    }
+
+    fn attempt(
+        &mut self,
+        ctx: &egui::Context,
+        (ask, model): (Ask, Arc<ReducedModel>),
+        again: Option<(egui::Context, Arc<ReducedModel>)>,
+    ) {
         let late = Arc::new(AtomicBool::new(false));
         let wake = wake_where(ctx, Arc::clone(&late));
         self.running.iter().for_each(|running| running.job.give_up_after(LIVE_PATIENCE));
-        let job = self.queue.submit(0, "Reduced solve", wake, (ask, model));
+        let away = self.away.as_ref();
+        let job = match away.and_then(|away| Some((away, name_of(&model)?))) {
+            Some((away, name)) => away.submit(0, NAME, wake, LiveSolve { ask, model: Given::Program(name) }),
+            None => self.queue.submit(0, NAME, wake, (ask, model)),
+        };
         self.running.retain(|running| running.job.begun());
-        let mut running = Running { ask, solved: None, ending: None, job };
+        let mut running = Running { ask, solved: None, ending: None, job, again };
         running.receive_within(self.patience);
         if running.ending.is_none() {
             // From here on the job requests a repaint when it ends. A job that ended just before did not, so poll
@@ -110,16 +165,29 @@ impl Live {
     /// newer request return nothing.
     pub fn poll(&mut self) -> Vec<(Ask, Answered)> {
         let mut answers = Vec::new();
-        let mut newer = self.running.len();
+        let (mut newer, mut lost) = (self.running.len(), None);
         self.running.retain_mut(|running| {
             newer -= 1;
+            if let Some((ctx, model)) = running.lost() {
+                lost = Some((ctx, running.ask, model)).filter(|_| newer == 0);
+                return false;
+            }
             let Some(answer) = running.answer() else { return true };
+            self.waited_s = running.job.since().seconds();
             if answer.is_ok() || newer == 0 {
                 answers.push((running.ask, answer));
             }
             false
         });
+        if let Some((ctx, ask, model)) = lost {
+            self.attempt(&ctx, (ask, model), None);
+        }
         answers
+    }
+
+    /// Returns the time between the last result and its request \[s\].
+    pub fn waited_s(&self) -> f64 {
+        self.waited_s
     }
 
     /// Returns true while a result is outstanding.
@@ -191,7 +259,7 @@ impl Live {
             }
             Err("cancelled".to_owned().into())
         });
-        self.running.push(Running { ask, solved: None, ending: None, job });
+        self.running.push(Running { ask, solved: None, ending: None, job, again: None });
     }
 }
 
@@ -276,6 +344,29 @@ mod tests {
         live.submit(&ctx, ask_at(1.0), model);
         live.forget();
         assert!(!live.busy() && live.poll().is_empty());
+    }
+
+    #[test]
+    fn a_solve_whose_worker_has_ended_is_repeated_once() {
+        let (ctx, model) = (egui::Context::default(), embedded("line").unwrap());
+        let lost = |again| Running {
+            ask: ask_at(1.0),
+            solved: None,
+            ending: None,
+            job: Job::start("Reduced solve", Wake::default(), |_| Err(JobError::Lost)),
+            again,
+        };
+        for (again, repeats) in [(Some((ctx, model)), true), (None, false)] {
+            let (mut live, begin) = (patient(), Stopwatch::start());
+            live.running.push(lost(again));
+            let answer = loop {
+                if let Some((_, answer)) = live.poll().pop() {
+                    break answer;
+                }
+                assert!(live.busy() && begin.elapsed() < Duration::from_secs(60));
+            };
+            assert_eq!(answer.is_ok(), repeats);
+        }
     }
 
     #[test]

@@ -11,7 +11,7 @@ mod event;
 mod failure;
 pub mod grid_error;
 pub mod jobs;
-mod live;
+pub mod live;
 pub mod picture;
 mod pins;
 mod runner;

@@ -6,7 +6,7 @@ use super::ask::{Ask, REST_S, quick};
 use super::event::{Event, Wish};
 use super::failure::PassedOver;
 use super::jobs::{FullSolve, GridChoice, JobKind, Running};
-use super::live::{Live, Unanswered};
+use super::live::{AT_ONCE, Unanswered};
 use super::picture::Cuts;
 use super::state::Answers;
 use crate::app::document::Document;
@@ -55,13 +55,21 @@ impl Answers {
             self.on(Event::LineGrid(grid));
             self.follow(ctx, document, Event::Asked(ask, self.untried(document), ctx.input(|i| i.time)));
         }
+        let (now, mut came) = (ctx.input(|i| i.time), false);
         for (ask, answer) in self.work.live.poll() {
+            came |= answer.is_ok();
             let event = match answer {
                 Ok(answer) => Event::Reduced(ask, answer),
                 Err(Unanswered::Stopped) => Event::ReducedStopped(ask),
                 Err(Unanswered::Failed(why)) => Event::ReducedFailed(ask, why),
             };
             self.follow(ctx, document, event);
+        }
+        let asked_at = came.then(|| now - self.work.live.waited_s());
+        // With threads, the frame itself has waited.
+        let delay = if worker::THREADS { 0.0 } else { AT_ONCE.as_secs_f64() };
+        if let Some(left) = self.lag(asked_at, now, delay) {
+            ctx.request_repaint_after_secs(left as f32);
         }
     }
 
@@ -143,11 +151,6 @@ impl Answers {
 
     /// Starts to read a built-in model. The full solver draws the pictures until the model is available.
     fn read(&mut self, ctx: &Context, name: &'static str) {
-        if worker::is_crowded() {
-            self.work.models.give_back();
-            self.work.live = Live::new(&self.work.store);
-            self.work.store.forget_unused_models();
-        }
         self.work.reading = Some(self.work.store.read(name, wake(ctx)));
     }
 

@@ -24,6 +24,10 @@ pub struct Answers {
     changed_at: f64,
     /// True if a full solution is due when the sliders are idle.
     full_due: bool,
+    /// Time at which the picture last was that of the sliders \[s\].
+    current_at: f64,
+    /// True if the picture is late, but follows the sliders so closely that nobody sees the delay.
+    late: bool,
     /// Grid of full solutions of the present line contact.
     line: Option<GridSpec>,
     cuts: Cuts,
@@ -53,6 +57,8 @@ impl Answers {
             asked: None,
             changed_at: 0.0,
             full_due: false,
+            current_at: f64::NEG_INFINITY,
+            late: false,
             line: None,
             cuts: Cuts::default(),
             picture: None,
@@ -347,6 +353,35 @@ impl Answers {
     /// Returns the picture if it belongs to the sliders.
     pub fn current_picture(&self) -> Option<&Picture> {
         self.picture.as_ref().filter(|_| self.picture_is_current())
+    }
+
+    /// Determines whether the picture is drawn as that of the sliders. It may be late by `delay` while a reduced solve
+    /// runs. `asked_at` is the time of the request of a picture that has just arrived. Returns the rest of the delay \[s\]
+    /// if the picture is late.
+    pub(super) fn lag(&mut self, asked_at: Option<f64>, now: f64, delay: f64) -> Option<f64> {
+        let current = self.picture_is_current();
+        self.current_at = if current { now } else { asked_at.unwrap_or(self.current_at) };
+        let kind = |key: &Key| key.point.kind;
+        let alike = self.picture.as_ref().map(|picture| kind(&picture.key)) == self.key().as_ref().map(kind);
+        let left = self.current_at + delay - now;
+        self.late = !current && alike && self.passed_over.is_none() && self.failure.is_none() && left > 0.0;
+        self.late.then_some(left)
+    }
+
+    /// Returns true if the picture is drawn as that of the sliders: it is, or it follows them so closely that nobody
+    /// sees the delay.
+    pub fn picture_follows(&self) -> bool {
+        self.late || self.picture_is_current()
+    }
+
+    /// Returns the picture if it is drawn as that of the sliders.
+    pub fn shown_picture(&self) -> Option<&Picture> {
+        self.picture.as_ref().filter(|_| self.picture_follows())
+    }
+
+    /// Returns true if a contact is that of a picture that is drawn as that of the sliders.
+    pub fn shows(&self, key: &Key) -> bool {
+        self.shown_picture().is_some_and(|picture| picture.key == *key)
     }
 
     /// Returns the last converged full solution, whatever the present request.

@@ -62,7 +62,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     }
     // Content that appears and disappears with solves is placed last, so that nothing below it moves.
     error_ui(ui, context, commands);
-    if let Some(warning) = answers.current_picture().and_then(|picture| picture.unresolved.as_ref()) {
+    if let Some(warning) = answers.shown_picture().and_then(|picture| picture.unresolved.as_ref()) {
         warning_ui(ui, warning);
     }
 }

@@ -204,7 +204,7 @@ fn composite_ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
 fn state_ui(ui: &mut Ui, context: &Context<'_>) {
     let document = context.document;
     let sigma = document.composite_roughness_m();
-    let picture = context.answers.current_picture();
+    let picture = context.answers.shown_picture();
     let mixed = picture.and_then(|picture| picture.mixed);
     let ratio = picture.map(|picture| picture.minimum_film_m() / sigma).filter(|ratio| ratio.is_finite());
     let text = match (ratio, mixed) {

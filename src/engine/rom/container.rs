@@ -249,6 +249,8 @@ pub(super) struct Contents<'a> {
     arrays: &'a [u8],
     /// Bytes of the payload.
     pub bytes: usize,
+    /// True if matrices are left empty.
+    outline: bool,
 }
 
 impl<'a> Contents<'a> {
@@ -265,6 +267,19 @@ impl<'a> Contents<'a> {
         Self::of_payload(FORMAT.payload(bytes)?)
     }
 
+    /// Opens the content of a file for an outline: matrices have no rows.
+    ///
+    /// # Errors
+    /// As [`Self::open`].
+    pub fn outline(bytes: &'a [u8]) -> Result<Self, ModelFileError> {
+        Ok(Self { outline: true, ..Self::open(bytes)? })
+    }
+
+    /// Returns true if matrices are left empty.
+    pub fn is_outline(&self) -> bool {
+        self.outline
+    }
+
     /// Opens only the directory. The arrays may be missing.
     ///
     /// # Errors
@@ -273,7 +288,7 @@ impl<'a> Contents<'a> {
         let (directory, arrays) = directory(bytes.get(HEADER..).unwrap_or_default())?;
         let announced = FORMAT.announced(bytes)?;
         let bytes = usize::try_from(announced).map_err(|_| Flaw::TooLarge { bytes: announced })?;
-        Ok(Self { directory, arrays, bytes })
+        Ok(Self { directory, arrays, bytes, outline: false })
     }
 
     fn of_payload(payload: &'a [u8]) -> Result<Self, ModelFileError> {
@@ -288,7 +303,7 @@ impl<'a> Contents<'a> {
         if decoded > payload.len().saturating_mul(MOST) {
             return Err(damaged("its arrays"));
         }
-        Ok(Self { directory, arrays, bytes: payload.len() })
+        Ok(Self { directory, arrays, bytes: payload.len(), outline: false })
     }
 
     /// Returns the kind of the model.
@@ -345,11 +360,15 @@ impl<'a> Contents<'a> {
         Some(self.list::<u32>(name)?.into_iter().map(|index| index as usize).collect())
     }
 
-    /// Decodes a matrix of finite numbers with this number of rows. Returns `None` if it is damaged or missing.
+    /// Decodes a matrix of finite numbers with this number of rows. In an outline it has its columns, but no rows.
+    /// Returns `None` if it is damaged or missing.
     pub fn matrix(&self, name: &str, rows: usize) -> Option<Mat<f64>> {
         let entry = self.directory.arrays.get(name)?;
         let [own, columns] = entry.shape[..] else { return None };
         let bytes = self.bytes_of(entry).filter(|_| own == rows && entry.element == Element::F64)?;
+        if self.outline {
+            return Some(Mat::zeros(0, columns));
+        }
         let matrix = match &entry.codec {
             Codec::Multiples { across, parts } => multiples::decode(bytes, parts, *across, (rows, columns))?,
             Codec::Pco => {

@@ -22,6 +22,9 @@ pub enum ModelFileError {
     /// Not a model file.
     #[error("this is not a reduced model file (.rom); train one with `ehl-explorer train SCENE.ron --out FILE.rom`")]
     Foreign,
+    /// File of a model of the program that a web page could not fetch.
+    #[error("the file of this reduced model could not be fetched; check the network connection and try again")]
+    Missing,
     /// Written by a program with another version of the format.
     #[error("the model file has version {found}, but this program reads version {VERSION}; train it again")]
     OtherVersion {

@@ -19,7 +19,7 @@ pub use container::ModelKind;
 pub(super) use container::{head, head_length};
 pub use error::ModelFileError;
 pub use saved::SavedModel;
-pub(super) use saved::{from_own_bytes, read_watched, to_bytes, write_proven};
+pub(super) use saved::{from_own_bytes, outline_from_own_bytes, read_watched, to_bytes, write_proven};
 
 #[cfg(test)]
 mod tests;

@@ -147,6 +147,19 @@ pub(in crate::engine) fn from_own_bytes(bytes: &[u8], observer: &dyn Observer) -
     })
 }
 
+/// Reads a steady model without its bases, calibrations and kernels from trusted bytes. It has everything that the screen
+/// shows of a model, except the modes; it cannot solve.
+///
+/// # Errors
+/// If the file is damaged or of a transient model.
+pub(in crate::engine) fn outline_from_own_bytes(bytes: &[u8]) -> Result<ReducedModel, ModelFileError> {
+    let contents = Contents::outline(bytes)?;
+    match contents.kind() {
+        ModelKind::Steady => on_all_cores(|| steady::decode(&contents, &())),
+        ModelKind::Transient => Err(ModelFileError::InTime),
+    }
+}
+
 /// Returns the content of the file of a steady model.
 ///
 /// # Errors

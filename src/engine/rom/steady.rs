@@ -65,7 +65,7 @@ pub(super) fn encode(model: &ReducedModel) -> Option<Vec<u8>> {
     })
 }
 
-/// Reads a model. Does not solve training contacts.
+/// Reads a model, or its outline if the contents are those of one. Does not solve training contacts.
 ///
 /// # Errors
 /// If its parts are inconsistent, or if the observer cancels.
@@ -76,9 +76,13 @@ pub(super) fn decode(contents: &Contents<'_>, observer: &dyn Observer) -> Result
     let counts: Vec<usize> = windows.iter().map(|window| window.snapshots).collect();
     let evidence: Vec<usize> = windows.iter().map(|window| window.evidence).collect();
     let snapshots = snapshots::read(contents, &counts).ok_or(damaged("snapshots"))?;
-    let calibrations = calibrations::read(contents, &evidence).ok_or(damaged("calibration"))?;
+    let calibrations = match contents.is_outline() {
+        true => vec![None; evidence.len()],
+        false => calibrations::read(contents, &evidence).ok_or(damaged("calibration"))?,
+    };
     check_sizes(contents, &domain, (&grids, &windows))?;
-    let grids: Vec<ContactGrid> = grids.iter().map(GridSpec::build).collect::<Result<_, _>>()?;
+    let build = if contents.is_outline() { GridSpec::build_without_kernel } else { GridSpec::build };
+    let grids: Vec<ContactGrid> = grids.iter().map(build).collect::<Result<_, _>>()?;
     let grids: Vec<&ContactGrid> =
         windows.iter().map(|window| grids.get(window.grid)).collect::<Option<_>>().ok_or(damaged("its grids"))?;
     if grids.iter().any(|grid| grid.kind() != contents.contact()) {
@@ -198,7 +202,7 @@ fn check_sizes(
 
 /// Reads the basis that all local models share, if there is one. Returns `None` if it is damaged.
 fn shared_basis(contents: &Contents<'_>, grids: &[&ContactGrid]) -> Option<Option<Arc<SharedBasis>>> {
-    if contents.shape(SHARED[0]).is_none() {
+    if contents.shape(SHARED[0]).is_none() || contents.is_outline() {
         return Some(None);
     }
     let grid = grids.first()?;

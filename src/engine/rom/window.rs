@@ -260,7 +260,7 @@ pub(super) fn read_window(
             && snapshot.point.kind == grid.kind()
             && slide_to_roll_ratio.is_finite()
             && newtonian_plateau_ratio.is_none_or(|ratio| (0.0..=1.0).contains(&ratio))
-            && snapshot.coefficients.len() == modes
+            && (contents.is_outline() || snapshot.coefficients.len() == modes)
             && snapshot.coefficients.iter().chain([&snapshot.h_0, &snapshot.h_c]).all(|value| value.is_finite())
     };
     if !snapshots.iter().all(sound) {
@@ -285,6 +285,11 @@ fn read_pressure(
     let (factors, values) = (name(k, "factors"), name(k, "singular_values"));
     if contents.shape(&factors).is_none() {
         let basis = read_basis(contents, [&name(k, "pressure"), &values], grid.len())?;
+        return Some(PressureModes::own(basis, grid));
+    }
+    if contents.is_outline() {
+        let &[_, modes] = contents.shape(&factors)? else { return None };
+        let basis = PodBasis { modes: Mat::zeros(0, modes), singular_values: singular_values(contents, &values)? };
         return Some(PressureModes::own(basis, grid));
     }
     let shared = shared?;
@@ -315,6 +320,7 @@ fn read_rows(
     };
     let weights: Vec<f32> = contents.list(&name("weights")).ok_or(damaged("sampled equations"))?;
     let reconstruction = match weights.is_empty() {
+        _ if contents.is_outline() => Some(Mat::zeros(0, rows.len())),
         true => contents.matrix(&own, equations),
         false => of_weights(&weights, &rows, || modes_at(grid, pressure, &rows)).filter(|own| own.nrows() == equations),
     };

@@ -10,7 +10,7 @@ use std::time::Duration;
 pub const THREADS: bool = false;
 
 /// Memory of this instance above which it counts as short \[bytes\].
-const MEMORY_LIMIT: usize = 160 << 20;
+const MEMORY_LIMIT: usize = 128 << 20;
 /// Size of a page of WebAssembly memory \[bytes\].
 const PAGE: usize = 1 << 16;
 

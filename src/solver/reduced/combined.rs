@@ -139,6 +139,11 @@ impl PressureModes {
         }
     }
 
+    /// Returns true for modes of an outline, of which only the number and the singular values are there.
+    pub fn is_outline(&self) -> bool {
+        self.combined.is_none() && self.basis.get().is_some_and(|basis| basis.modes.nrows() == 0)
+    }
+
     /// Returns the number of modes.
     pub fn count(&self) -> usize {
         self.count

@@ -242,6 +242,11 @@ impl ReducedModel {
         &self.windows[self.window_for(point)]
     }
 
+    /// Returns true for an outline: a model without its bases, which cannot solve.
+    pub fn is_outline(&self) -> bool {
+        self.windows.first().is_some_and(|window| window.pressure.is_outline())
+    }
+
     /// Returns the kind of contact.
     pub fn contact(&self) -> ContactKind {
         self.windows.first().map_or_else(ContactKind::default, |window| window.grid.kind())

@@ -55,7 +55,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>) {
         }
         ui.end_row();
     });
-    if let Some(c) = context.answers.comparison().filter(|_| context.answers.picture_is_current()) {
+    if let Some(c) = context.answers.comparison().filter(|_| context.answers.picture_follows()) {
         let text = format!("Reduced against full: {}", c.describe());
         ui.label(rich(&text, 13.5, ui.visuals().text_color()));
     }

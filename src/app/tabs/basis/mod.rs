@@ -2,6 +2,7 @@
 
 mod curves;
 mod field;
+mod given_modes;
 mod in_time;
 mod losses;
 mod modes;
@@ -9,4 +10,5 @@ mod plane;
 mod sizes;
 mod tab;
 
+pub use given_modes::ModesTask;
 pub use tab::Basis;

@@ -3,6 +3,7 @@
 
 use super::curves::{Curves, Shown};
 use super::field::TRUNCATION;
+use super::given_modes::GivenModes;
 use super::in_time::InTime;
 use super::losses::{loss_plot, singular_plot};
 use super::{modes, sizes};
@@ -47,6 +48,7 @@ pub struct Basis {
     below: Below,
     sizes: sizes::Sizes,
     shown: Shown,
+    given: GivenModes,
     in_time: InTime,
 }
 
@@ -134,7 +136,13 @@ impl View for Basis {
         });
         match self.below {
             Below::Modes => {
-                modes::ui(ui, &mut self.shown, context.fit, window, (ui.available_height() - 4.0).max(120.0))
+                let window = match model.is_outline() {
+                    true => self.given.of(ui, context.answers.store(), &model, at),
+                    false => Some(window),
+                };
+                if let Some(window) = window {
+                    modes::ui(ui, &mut self.shown, context.fit, window, (ui.available_height() - 4.0).max(120.0));
+                }
             }
             Below::Sizes => sizes::ui(ui, &mut self.sizes, context, commands, (&model, at, window)),
             Below::Difference => profiles::with_difference(ui, context),
@@ -149,12 +157,15 @@ impl View for Basis {
             "Bases, singular values, sampled equations and snapshots of every local model, in one archive for numpy";
         vec![
             Offer::table("Singular values as CSV…", tip, window, |window| csv(window)),
-            Offer::arrays("Model as npz…", whole, model, |model| model_arrays::of_model(model)),
+            Offer::arrays("Model as npz…", whole, model, |model| {
+                context.answers.store().whole(model).map_or_else(|_| Vec::new(), |model| model_arrays::of_model(&model))
+            }),
         ]
     }
 
     fn receive(&mut self) {
         self.sizes.receive();
+        self.given.receive();
     }
 
     fn jobs(&self, _: &Context<'_>) -> Vec<Standing> {

@@ -113,7 +113,7 @@ impl View for ContactMap {
     }
 
     fn why(&self, context: &Context<'_>) -> String {
-        let present = context.answers.current_picture().filter(|picture| picture.has_plane());
+        let present = context.answers.shown_picture().filter(|picture| picture.has_plane());
         present.map_or_else(|| ABOUT.why.to_owned(), |picture| explain(&picture.solution))
     }
 

@@ -76,7 +76,7 @@ impl View for Profiles {
     }
 
     fn why(&self, context: &Context<'_>) -> String {
-        let present = context.answers.current_picture();
+        let present = context.answers.shown_picture();
         present.map_or_else(|| ABOUT.why.to_owned(), |picture| Facts::of(picture).explain())
     }
 

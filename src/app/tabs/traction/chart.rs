@@ -79,7 +79,7 @@ pub fn ui(ui: &mut Ui, choices: &Choices, context: &Context<'_>, sweep: &Sweep, 
     let rough = sweep.base.lubricant.is_rough();
     let parts = if rough { 2.0 + SHARE_HEIGHT } else { 2.0 };
     let unit = ((ui.available_height() - 6.0) / parts).max(LEAST_HEIGHT);
-    let here = context.answers.current_picture();
+    let here = context.answers.shown_picture();
     let below = axes.against.axis(sweep.base.point.kind, context.system);
     let drawn = |name, of, color, width| Drawn { name, of, color, width, named_at_start: false };
     let [number, films, percent] = [QuantityKind::Number, QuantityKind::FilmThickness, QuantityKind::Percent]

@@ -390,7 +390,7 @@ fn left_out_ui(ui: &mut Ui, failed: usize, served: &Served) {
 /// Returns the traction of the contact, the maximum of the curve, and the difference to full solutions.
 fn summary(context: &Context<'_>, view: &Sweeps, sweep: &Sweep) -> String {
     let mut parts = Vec::new();
-    let here = context.answers.picture().filter(|_| context.answers.picture_is_current());
+    let here = context.answers.picture().filter(|_| context.answers.picture_follows());
     if let Some(picture) = here.filter(|picture| picture.unphysical.is_none()) {
         parts.push(format!("µ {} here", numbers::significant(picture.traction)));
     }

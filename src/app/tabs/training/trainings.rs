@@ -238,7 +238,7 @@ impl Training {
             let [a, b] = [a, b].map(|entry| loads_in_common(&entry.domain, domain));
             a.total_cmp(&b)
         });
-        let embedded = nearest.and_then(|entry| answers.store().embedded(entry.name).ok());
+        let embedded = nearest.and_then(|entry| answers.store().shown(entry.name).ok());
         let in_use = answers.models().counterpart(domain).cloned();
         let known = [("in the program", embedded), ("in use", in_use), ("before", self.former.clone())];
         let known = known.into_iter().filter_map(|(name, model)| Some((name.to_owned(), model?)));

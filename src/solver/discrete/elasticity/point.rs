@@ -6,7 +6,7 @@
 //! as much as a second FFT over the mirrored domain, halves the number of transforms, and allows any spacing across.
 
 use super::convolution::{Convolution, KernelError};
-use crate::host::pool::{self, on_all_cores};
+use crate::host::pool::{self, computed, on_all_cores};
 use crate::solver::physics::contact::Ellipse;
 use rayon::prelude::*;
 use realfft::num_complex::Complex64;
@@ -26,7 +26,7 @@ pub struct PointFlexibility {
     edges: Vec<f64>,
     /// One matrix per frequency with n_y rows and n_y − 1 columns (cell j + 1), column by column. It is real, since K
     /// is even in X.
-    spectrum: Vec<f64>,
+    spectrum: OnceLock<Vec<f64>>,
     convolution: Convolution,
     /// [`Self::column_block`] of every distance, stored at the first request.
     blocks: OnceLock<Vec<Vec<f64>>>,
@@ -119,13 +119,33 @@ impl PointFlexibility {
     /// # Errors
     /// [`KernelError`] if the kernel cannot be transformed.
     pub fn new(hx: f64, nx: usize, y: &[f64], edges: &[f64], factor: f64) -> Result<Self, KernelError> {
-        let (ny, m) = (y.len(), y.len() - 1);
-        let convolution = Convolution::new(2 * nx - 3);
-        let (length, frequencies) = (convolution.len(), convolution.frequencies());
-        let (y, edges, spectrum) = (y.to_vec(), edges.to_vec(), Vec::new());
-        let blocks = OnceLock::new();
-        let mut kernel = Self { nx, ny, hx, factor, y, edges, spectrum, convolution, blocks };
-        let strips = Strips::new(&kernel);
+        let kernel = Self::later(hx, nx, y, edges, factor);
+        let spectrum = OnceLock::from(kernel.transformed()?);
+        Ok(Self { spectrum, ..kernel })
+    }
+
+    /// As [`Self::new`], but transforms the kernel when it is first used.
+    pub fn later(hx: f64, nx: usize, y: &[f64], edges: &[f64], factor: f64) -> Self {
+        let (ny, convolution) = (y.len(), Convolution::new(2 * nx - 3));
+        let (y, edges) = (y.to_vec(), edges.to_vec());
+        let (spectrum, blocks) = (OnceLock::new(), OnceLock::new());
+        Self { nx, ny, hx, factor, y, edges, spectrum, convolution, blocks }
+    }
+
+    /// Returns the transformed kernel.
+    fn spectrum(&self) -> &[f64] {
+        // A transform fails only if a signal has the wrong length.
+        let spectrum: &Vec<f64> = computed(&self.spectrum, || {
+            let length = self.convolution.frequencies() * self.ny * (self.ny - 1);
+            self.transformed().unwrap_or_else(|_| vec![f64::NAN; length])
+        });
+        spectrum
+    }
+
+    fn transformed(&self) -> Result<Vec<f64>, KernelError> {
+        let (kernel, nx, ny, m) = (self, self.nx, self.ny, self.ny - 1);
+        let (length, frequencies) = (self.convolution.len(), self.convolution.frequencies());
+        let strips = Strips::new(kernel);
         // Spectra of the kernels of one ordinate j with respect to all cells, in parallel over j.
         let row = |j: usize| {
             let mut out = vec![0.0; frequencies * m];
@@ -157,8 +177,7 @@ impl PointFlexibility {
                 }
             }
         });
-        kernel.spectrum = spectrum;
-        Ok(kernel)
+        Ok(spectrum)
     }
 
     /// Passes to `put` the deformation of a node at ordinate `j` by unit pressure on each cell and its mirror image,
@@ -222,7 +241,7 @@ impl PointFlexibility {
         scratch.pressure.resize(ny * frequencies, Complex64::default());
         scratch.deformation.resize(ny * frequencies, Complex64::default());
         scratch.work.resize(ny * needed, Complex64::default());
-        let share = ny.div_ceil(4).max(8);
+        let (share, matrices) = (ny.div_ceil(4).max(8), self.spectrum());
         let PointScratch { real, pressure: spectra, deformation: deformed, work } = scratch;
         real.par_chunks_exact_mut(length)
             .zip(spectra.par_chunks_exact_mut(frequencies))
@@ -241,7 +260,7 @@ impl PointFlexibility {
         let spectra = &*spectra;
         deformed
             .par_chunks_exact_mut(ny)
-            .zip(self.spectrum.par_chunks_exact(ny * m))
+            .zip(matrices.par_chunks_exact(ny * m))
             .enumerate()
             .with_min_len(frequencies.div_ceil(4))
             .for_each(|(k, (out, matrix))| {
@@ -308,7 +327,7 @@ impl PointFlexibility {
             signal[..nx].iter_mut().enumerate().for_each(|(i, value)| *value = values[i * ny + j]);
             self.convolution.forward(signal, spectrum, work);
         }
-        for (k, matrix) in self.spectrum.chunks_exact(ny * m).enumerate() {
+        for (k, matrix) in self.spectrum().chunks_exact(ny * m).enumerate() {
             for (cell, column) in matrix.chunks_exact(ny).enumerate() {
                 let products = column.iter().enumerate().map(|(j, kernel)| kernel * spectra[j * frequencies + k]);
                 folded[cell * frequencies + k] = products.sum();

@@ -77,6 +77,17 @@ impl GridSpec {
             Self::Plane(spec) => ContactGrid::Point(spec.build()?),
         })
     }
+
+    /// As [`Self::build`], but the kernel of a point contact, which takes long, is computed when it is first used.
+    ///
+    /// # Errors
+    /// As [`Self::build`].
+    pub fn build_without_kernel(&self) -> Result<ContactGrid, GridError> {
+        match self {
+            Self::Plane(spec) => Ok(ContactGrid::Point(spec.build_without_kernel()?)),
+            _ => self.build(),
+        }
+    }
 }
 
 /// Grid of either kind of contact with its kernel; cheap to clone.

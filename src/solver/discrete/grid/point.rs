@@ -5,7 +5,7 @@
 //! = n_y − 1 on the symmetry axis Y = 0. The unknown pressures are those inside and on the axis, in the same order.
 
 use super::{GridError, LONGEST_INLET, LONGEST_OUTLET, MAX_BYTES, cubic};
-use crate::solver::discrete::elasticity::{PointFlexibility, PointScratch};
+use crate::solver::discrete::elasticity::{KernelError, PointFlexibility, PointScratch};
 use crate::solver::discrete::reynolds::{RowGeometry, STENCIL};
 use crate::solver::limits::Number;
 use crate::solver::physics::contact::Ellipse;
@@ -191,12 +191,30 @@ impl PointGridSpec {
     /// # Errors
     /// If the domain cuts the contact, or the grid is too coarse for it or too fine for the memory.
     pub fn build(&self) -> Result<Arc<PointGrid>, GridError> {
+        self.with(PointFlexibility::new)
+    }
+
+    /// As [`Self::build`], but computes the kernel when it is first used.
+    ///
+    /// # Errors
+    /// As [`Self::build`].
+    pub fn build_without_kernel(&self) -> Result<Arc<PointGrid>, GridError> {
+        self.with(|hx, nx, y, edges, factor| Ok(PointFlexibility::later(hx, nx, y, edges, factor)))
+    }
+
+    fn with(
+        &self,
+        kernel: impl FnOnce(f64, usize, &[f64], &[f64], f64) -> Kernel,
+    ) -> Result<Arc<PointGrid>, GridError> {
         let (nx, ny) = self.check()?;
         let (from, to, _) = self.domain;
         let x: Vec<f64> = (0..nx).map(|i| from + (to - from) * i as f64 / (nx - 1) as f64).collect();
-        Ok(Arc::new(PointGrid::new(*self, x, self.ordinates(ny), Ellipse::CIRCLE)?))
+        Ok(Arc::new(PointGrid::new(*self, x, self.ordinates(ny), Ellipse::CIRCLE, kernel)?))
     }
 }
+
+/// Kernel of a grid, or the reason why there is none.
+type Kernel = Result<PointFlexibility, KernelError>;
 
 /// Grid on the half domain of a point contact, with its kernel.
 #[derive(Debug)]
@@ -222,7 +240,13 @@ pub struct PointGrid {
 }
 
 impl PointGrid {
-    fn new(spec: PointGridSpec, x: Vec<f64>, y: Vec<f64>, ellipse: Ellipse) -> Result<Self, GridError> {
+    fn new(
+        spec: PointGridSpec,
+        x: Vec<f64>,
+        y: Vec<f64>,
+        ellipse: Ellipse,
+        kernel: impl FnOnce(f64, usize, &[f64], &[f64], f64) -> Kernel,
+    ) -> Result<Self, GridError> {
         let (nx, ny) = (x.len(), y.len());
         let edges: Vec<f64> = (0..ny).map(|j| if j + 1 < ny { 0.5 * (y[j] + y[j + 1]) } else { 0.0 }).collect();
         let hx = (x[nx - 1] - x[0]) / (nx - 1) as f64;
@@ -240,7 +264,7 @@ impl PointGrid {
             .collect();
         let in_a = |values: &[f64]| values.iter().map(|y| ellipse.kappa * y).collect::<Vec<f64>>();
         let across = in_a(&y);
-        let flexibility = PointFlexibility::new(hx, nx, &across, &in_a(&edges), ellipse.kernel_factor())?;
+        let flexibility = kernel(hx, nx, &across, &in_a(&edges), ellipse.kernel_factor())?;
         Ok(Self { spec, ellipse, x, y, across, weights, flexibility, columns })
     }
 
@@ -252,7 +276,7 @@ impl PointGrid {
         if ellipse == self.ellipse {
             return Ok(Arc::clone(self));
         }
-        Ok(Arc::new(Self::new(self.spec, self.x.clone(), self.y.clone(), ellipse)?))
+        Ok(Arc::new(Self::new(self.spec, self.x.clone(), self.y.clone(), ellipse, PointFlexibility::new)?))
     }
 
     /// Returns the number of nodes along X, both ends included.

@@ -4,6 +4,7 @@ use crate::solver::full::SolveError;
 use crate::solver::parameters::CIRCLES;
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::Cavitation;
+use serde::{Deserialize, Serialize};
 
 /// Error of a reduced solve.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -99,7 +100,7 @@ impl ReducedError {
 }
 
 /// Selection of initial guesses for an online iteration.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Starts {
     /// All initial guesses of [`Online::solve`](super::Online::solve), one after the other.
     #[default]
@@ -109,7 +110,7 @@ pub enum Starts {
 }
 
 /// Settings of the online phase. They can be changed without another training.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ReducedOptions {
     /// Number of pressure modes; `None` for all.
     pub pressure_modes: Option<usize>,
