@@ -6,7 +6,7 @@ use crate::driver::{
     shows, solid_curves, time, undo, wait,
 };
 use egui::accesskit::Role;
-use egui::{Key, Modifiers};
+use egui::{Key, Modifiers, ViewportEvent};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use ehl_explorer::app::Explorer;
 use ehl_explorer::engine::{Workbench, run_scene};
@@ -58,7 +58,8 @@ fn quitting_asks_before_it_discards_a_running_transient_run() {
     let (mut harness, _folder) = open("quit", &scene(BREATHING, 2000.0, "Fixed"));
     click(&mut harness, "Run transient");
     harness.run_steps(3);
-    press(&mut harness, Modifiers::COMMAND, Key::Q);
+    let viewport = harness.input().viewport_id;
+    harness.input_mut().viewports.entry(viewport).or_default().events.push(ViewportEvent::Close);
     harness.run_steps(3);
     assert!(shows(&harness, "This would be lost"));
     assert!(shows(&harness, "A transient run is being computed. Its results so far are not saved."));

@@ -285,7 +285,7 @@ mod tests {
             (bodies([0.0, 1.0], [1.0; 2]).reduced_radius_m(), "other than 0"),
             (bodies([0.05, -0.05], [1.0; 2]).reduced_radius_m(), "flatter"),
             (bodies([0.05, -0.01], [1.0; 2]).reduced_radius_m(), "flatter"),
-            (bodies([f64::INFINITY; 2], [1.0; 2]).reduced_radius_m(), "two planes"),
+            (bodies([f64::INFINITY; 2], [1.0; 2]).reduced_radius_m(), "one surface must be curved"),
             (bodies([0.01; 2], [1.0, -1.0]).entrainment().map(|e| e.0), "carry no oil"),
             (rough(0.0, 0.0), "one above"),
             (rough(-1e-8, 1e-8), "at least 0"),
