@@ -57,14 +57,12 @@ impl Running {
 
     /// Returns what another attempt needs if the instance that solved has ended, and no stop was requested.
     fn lost(&mut self) -> Option<(egui::Context, Arc<ReducedModel>)> {
-        self.receive_within(Duration::ZERO);
         let lost = matches!(self.ending, Some(Err(JobError::Lost))) && !self.job.stopping();
         if lost { self.again.take() } else { None }
     }
 
     /// Returns the result once the solve has ended.
     fn answer(&mut self) -> Option<Answered> {
-        self.receive_within(Duration::ZERO);
         Some(match (self.ending.take()?, self.solved.take()) {
             (Ok(()), Some(solved)) => Ok(solved),
             _ if self.job.stopping() => Err(Unanswered::Stopped),
@@ -168,6 +166,8 @@ impl Live {
         let (mut newer, mut lost) = (self.running.len(), None);
         self.running.retain_mut(|running| {
             newer -= 1;
+            // Only once: what ends between two calls would be taken for a failure.
+            running.receive_within(Duration::ZERO);
             if let Some((ctx, model)) = running.lost() {
                 lost = Some((ctx, running.ask, model)).filter(|_| newer == 0);
                 return false;
