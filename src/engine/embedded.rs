@@ -7,6 +7,7 @@ use crate::solver::physics::contact::ContactKind;
 use crate::solver::reduced::transient::TrajectoryModel;
 use crate::solver::reduced::{Domain, ReducedModel};
 use std::borrow::Cow;
+use std::path::Path;
 use std::sync::{Arc, LazyLock, Mutex, MutexGuard, OnceLock, PoisonError};
 
 /// Embeds a model file: complete, or without the feature `models` only header and directory.
@@ -65,6 +66,11 @@ pub fn catalogue() -> &'static [Entry] {
 pub fn bytes_of(name: &str) -> Option<Cow<'static, [u8]>> {
     let (_, held) = MODELS.iter().chain(&IN_TIME).find(|(known, _)| *known == name)?;
     if cfg!(feature = "models") { Some(Cow::Borrowed(held)) } else { models::now(name).map(Cow::Owned) }
+}
+
+/// Returns the name of an embedded model that stands in place of a path, if there is no such file.
+pub fn named_by(path: &Path) -> Option<&str> {
+    path.to_str().filter(|name| !path.exists() && bytes_of(name).is_some())
 }
 
 /// Loaded models and outlines.

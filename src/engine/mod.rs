@@ -33,7 +33,7 @@ pub mod validation;
 mod workbench;
 
 pub use answer::{Solver, answer};
-pub use embedded::{Entry, bytes_of, catalogue, embedded, in_time, name_of};
+pub use embedded::{Entry, bytes_of, catalogue, embedded, in_time, name_of, named_by};
 pub use grid_accuracy::GridAccuracy;
 pub use rom::{Catalogue, ModelKind, SavedModel};
 pub use store::{Held, Store};

@@ -189,8 +189,7 @@ impl Store {
         path: &Path,
         observer: &dyn Observer,
     ) -> Result<Arc<ReducedModel>, EngineError> {
-        let name = path.to_str().filter(|name| !path.exists() && embedded::bytes_of(name).is_some());
-        if let Some(name) = name {
+        if let Some(name) = embedded::named_by(path) {
             return self.embedded_watched(name, observer).map_err(|reason| unreadable(path, reason));
         }
         let read = || model_file::read_watched(path, observer);

@@ -1,5 +1,6 @@
 //! Modes of a local model whose model is an outline: a worker reads them and sends them as they are drawn.
 
+use crate::app::answers::live::LiveSolve;
 use crate::app::wake::wake;
 use crate::engine::Store;
 use crate::engine::job::{Background, Ending, Given, Job, JobError, Reporter, Task};
@@ -25,16 +26,23 @@ pub struct Modes {
 
 impl Task for ModesTask {
     const KIND: &'static str = "modes";
-    // The worker that solves with the model has already read it.
-    const LANE: usize = 2;
+    // Its worker has already read the model.
+    const LANE: usize = LiveSolve::LANE;
     type Message = Modes;
 
     fn run(self, store: &Store, reporter: &Reporter<Modes>) -> Ending {
         let model = self.model.model(store)?;
         let window = model.windows.get(self.window).ok_or_else(|| JobError::failed("there is no such local model"))?;
-        let flat = |basis: &PodBasis| basis.modes.col_iter().flat_map(|mode| mode.iter().map(|v| *v as f32)).collect();
-        reporter.send(Modes { pressure: flat(window.pressure.basis()), deformation: flat(&window.deformation) });
+        reporter.send(Modes::of(window));
         Ok(())
+    }
+}
+
+impl Modes {
+    /// Returns the modes of a local model.
+    fn of(window: &Window) -> Self {
+        let flat = |basis: &PodBasis| basis.modes.col_iter().flat_map(|mode| mode.iter().map(|v| *v as f32)).collect();
+        Self { pressure: flat(window.pressure.basis()), deformation: flat(&window.deformation) }
     }
 }
 
@@ -99,9 +107,7 @@ mod tests {
     fn modes_reach_the_local_model_of_an_outline() {
         let whole = embedded("line").unwrap();
         let window = &whole.windows[0];
-        let flat = |basis: &PodBasis| basis.modes.col_iter().flat_map(|mode| mode.iter().map(|v| *v as f32)).collect();
-        let modes = Modes { pressure: flat(window.pressure.basis()), deformation: flat(&window.deformation) };
-        let given = with_modes(window, &modes);
+        let given = with_modes(window, &Modes::of(window));
         for (own, given) in
             [(window.pressure.basis(), given.pressure.basis()), (&*window.deformation, &*given.deformation)]
         {
